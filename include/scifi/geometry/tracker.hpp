@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include <scifi/geometry/channel_id.hpp>
+#include <scifi/geometry/station.hpp>
+#include <scifi/material/material.hpp>
+
+namespace scifi {
+
+/// A telescope of stations along z. Tracker frame: z grows from station 1 to the last, z = 0 is the reference surface of station 1.
+struct tracker {
+  int id = 0;                    ///< 0 TKU, 1 TKD
+  std::string name;              ///< for messages and tables
+  int beam_direction = 1;        ///< +1 when the beam travels towards +z of the tracker frame, -1 towards -z
+  double fiducial_radius = 0.0;  ///< mm; space points further from the axis of their station than this plus a channel are not built
+  material gas;                  ///< what fills the space between the stations
+  std::vector<station> stations;
+};
+
+/// All trackers of an experiment.
+struct detector {
+  std::vector<tracker> trackers;
+
+  /// The tracker with this id, or nullptr.
+  [[nodiscard]] const tracker* find(int id) const {
+    for (const tracker& t : trackers)
+      if (t.id == id) return &t;
+    return nullptr;
+  }
+  /// The plane that a channel id belongs to, or nullptr when tracker, station or plane do not exist.
+  [[nodiscard]] const plane* find_plane(const channel_id& id) const {
+    const tracker* t = find(id.tracker);
+    if (t == nullptr) return nullptr;
+    for (const station& s : t->stations)
+      if (s.id == id.station && id.plane >= 0 && static_cast<std::size_t>(id.plane) < s.planes.size())
+        return &s.planes[static_cast<std::size_t>(id.plane)];
+    return nullptr;
+  }
+};
+
+}  // namespace scifi
