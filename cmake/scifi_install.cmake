@@ -1,0 +1,19 @@
+# SPDX-License-Identifier: MPL-2.0
+# find_package(scifi 0.1) gives scifi::scifi; with COMPONENTS io also scifi::io.
+include(GNUInstallDirs)
+include(CMakePackageConfigHelpers)
+
+set(package_dir "${CMAKE_INSTALL_DATADIR}/cmake/scifi")
+install(DIRECTORY "${PROJECT_SOURCE_DIR}/include/" DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}" FILES_MATCHING PATTERN "*.hpp")
+install(TARGETS scifi EXPORT scifi_targets)
+install(EXPORT scifi_targets FILE scifi_targets.cmake NAMESPACE scifi:: DESTINATION "${package_dir}")
+if(TARGET scifi_io)
+  install(TARGETS scifi_io EXPORT scifi_io_targets)
+  install(EXPORT scifi_io_targets FILE scifi_io_targets.cmake NAMESPACE scifi:: DESTINATION "${package_dir}")
+endif()
+configure_package_config_file("${PROJECT_SOURCE_DIR}/cmake/scifi-config.cmake.in"
+  "${PROJECT_BINARY_DIR}/scifi-config.cmake" INSTALL_DESTINATION "${package_dir}")
+write_basic_package_version_file("${PROJECT_BINARY_DIR}/scifi-config-version.cmake"
+  COMPATIBILITY SameMinorVersion ARCH_INDEPENDENT)
+install(FILES "${PROJECT_BINARY_DIR}/scifi-config.cmake" "${PROJECT_BINARY_DIR}/scifi-config-version.cmake"
+  DESTINATION "${package_dir}")
