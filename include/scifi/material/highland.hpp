@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+#include <cmath>
+
+#include <scifi/core/scalar.hpp>
+#include <scifi/material/particle.hpp>
+
+namespace scifi {
+
+/// Constants of Highland's formula as refitted by Lynch and Dahl, Nucl. Instrum. Methods B 58 (1991) 6; PDG 2024 eq. 34.16.
+namespace highland {
+
+inline constexpr double energy = 13.6;  ///< MeV
+inline constexpr double log_coefficient = 0.038;
+
+}  // namespace highland
+
+/// Variance theta0^2 (rad^2) of the scattering angle projected on a plane, PDG 2024 eq. 34.16:
+/// theta0 = 13.6 MeV/(beta p) z sqrt(x/X0) (1 + 0.038 ln(x z^2 / (X0 beta^2))).
+///
+/// The logarithm takes the whole layer's x/X0 and the variance the share x/x_layer of the layer's, so the variances of slices add up.
+/// Both thicknesses are along the true path (1/cos included). p > 0 in MeV/c. Fits Moliere's core to 11 % for 1e-3 < x/X0 < 100;
+/// the factor of the logarithm is held at zero or above, which happens below x z^2/(X0 beta^2) = 4e-12. Zero thickness gives exactly zero.
+template <scalar Scalar>
+[[nodiscard]] Scalar highland_variance(const Scalar& p, const particle& hypothesis, const Scalar& radiation_lengths_along_path,
+                                       const Scalar& layer_radiation_lengths_along_path) {
+  using std::log;
+  const double charge2 = static_cast<double>(hypothesis.charge) * hypothesis.charge;
+  const Scalar p2 = p * p;
+  const Scalar inverse_beta2 = Scalar(1.0) + Scalar(hypothesis.mass * hypothesis.mass) / p2;
+  const Scalar argument = layer_radiation_lengths_along_path * inverse_beta2 * Scalar(charge2);
+  const auto matter = Scalar(0.0) < argument;
+  const Scalar safe_argument = select(matter, argument, Scalar(1.0));
+  const Scalar correction = larger_of(Scalar(Scalar(1.0) + log(safe_argument) * Scalar(highland::log_coefficient)), Scalar(0.0));
+  const Scalar unit = inverse_beta2 / p2 * Scalar(highland::energy * highland::energy * charge2);
+  return select(matter, Scalar(unit * radiation_lengths_along_path * correction * correction), Scalar(0.0));
+}
+
+}  // namespace scifi

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+#include <cmath>
+#include <limits>
+
+#include <scifi/core/scalar.hpp>
+
+namespace scifi {
+
+/// Momentum after a change of energy, MeV/c, and its derivatives in the momentum before and in the energy lost, each with the other fixed.
+template <scalar Scalar>
+struct momentum_change {
+  Scalar p_new;
+  Scalar d_new_d_p;
+  Scalar d_new_d_loss;
+};
+
+/// p' = sqrt(p^2 - loss (2 E - loss)), E^2 = p^2 + mass^2; p > 0 in MeV/c, mass and energy_lost in MeV.
+/// A negative `energy_lost` is a gain: a particle followed against its flight.
+/// Fails with NaN in all three when nothing of the kinetic energy is left: the particle has stopped.
+template <scalar Scalar>
+[[nodiscard]] momentum_change<Scalar> momentum_after_loss(const Scalar& p, double mass, const Scalar& energy_lost) {
+  using std::sqrt;
+  const Scalar p2 = p * p;
+  const Scalar energy = sqrt(p2 + Scalar(mass * mass));
+  const Scalar kinetic = p2 / (energy + Scalar(mass));
+  const auto moving = energy_lost < kinetic;
+  const Scalar p2_new = p2 - energy_lost * (energy * Scalar(2.0) - energy_lost);
+  const Scalar safe = select(moving, p2_new, p2);
+  const Scalar root = sqrt(safe);
+  const Scalar energy_new = energy - energy_lost;
+  const Scalar stopped(std::numeric_limits<double>::quiet_NaN());
+  return {select(moving, root, stopped), select(moving, Scalar(energy_new * p / (energy * root)), stopped),
+          select(moving, Scalar(-energy_new / root), stopped)};
+}
+
+}  // namespace scifi

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+#include <scifi/core/scalar.hpp>
+#include <scifi/material/kinematics.hpp>
+#include <scifi/material/landau.hpp>
+#include <scifi/material/particle.hpp>
+#include <scifi/material/slab.hpp>
+
+namespace scifi {
+
+/// The quantity whose variance a straggling policy gives: the energy lost, MeV.
+struct lost_energy {};
+
+/// No energy straggling, said in so many words.
+struct no_straggling {
+  using variance_of = lost_energy;
+
+  template <scalar Scalar>
+  [[nodiscard]] Scalar variance(const Scalar&, const particle&, const slab&, const Scalar&) const {
+    return Scalar(0.0);
+  }
+};
+
+/// Variance (MeV^2) of the whole distribution about the mean loss, tail included, see `bohr_variance`. Goes with `mean_energy_loss`.
+struct bohr_straggling {
+  using variance_of = lost_energy;
+
+  /// p in MeV/c; path_over_thickness = 1/cos(angle to z) >= 1.
+  template <scalar Scalar>
+  [[nodiscard]] Scalar variance(const Scalar& p, const particle& hypothesis, const slab& s, const Scalar& path_over_thickness) const {
+    const ionisation_kinematics<Scalar> k = ionisation_kinematics_of(p, hypothesis);
+    const Scalar xi = landau_xi(k, hypothesis, s.medium, Scalar(path_over_thickness * Scalar(s.thickness)));
+    return bohr_variance(xi, k);
+  }
+};
+
+/// Variance (MeV^2) of the Gaussian as wide at half maximum as the Landau core, (4.018 xi / 2.355)^2. Goes with the most probable or the
+/// median loss.
+///
+/// Landau widths add linearly and variances must add, so the core's variance is shared: a slab gets (4.018/2.355)^2 xi xi_total with
+/// xi_total that of `traversed_layers` layers, and the sum over them is the core of the total. Never above `bohr_straggling` of
+/// the slab, the variance of the whole distribution (reached when kappa of the total is about 0.2 to 0.3).
+struct landau_straggling {
+  using variance_of = lost_energy;
+
+  double traversed_layers = 1.0;
+
+  template <scalar Scalar>
+  [[nodiscard]] Scalar variance(const Scalar& p, const particle& hypothesis, const slab& s, const Scalar& path_over_thickness) const {
+    const ionisation_kinematics<Scalar> k = ionisation_kinematics_of(p, hypothesis);
+    const Scalar xi = landau_xi(k, hypothesis, s.medium, Scalar(path_over_thickness * Scalar(s.thickness)));
+    const Scalar xi_total = landau_xi(k, hypothesis, s.medium, Scalar(path_over_thickness * Scalar(layer_thickness(s) * traversed_layers)));
+    const Scalar core = xi * xi_total * Scalar(landau::core_width * landau::core_width);
+    return smaller_of(core, bohr_variance(xi, k));
+  }
+};
+
+}  // namespace scifi
