@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+#include <scifi/core/random.hpp>
+#include <scifi/geometry/channel_id.hpp>
+
+namespace scifi {
+
+/// Calibration of one channel: counts = gain npe + pedestal.
+struct channel_calibration {
+  double gain = 10.0;      ///< ADC counts per photo-electron
+  double pedestal = 28.0;  ///< ADC counts
+};
+
+/// A calibration per channel, drawn from Gaussians and kept above a fifth of their mean: a function of seed and channel alone, not stored.
+/// Defaults: gains and pedestals like those of the MICE photon counters.
+struct drawn_calibration {
+  std::uint64_t seed = 0;
+  channel_calibration mean{9.5, 26.0};
+  channel_calibration width{0.6, 1.2};
+
+  [[nodiscard]] channel_calibration operator()(const channel_id& id) const {
+    constexpr std::uint32_t calibration_stage = 255;
+    random_stream random(seed, 0, calibration_stage, static_cast<std::uint32_t>(tspc(id)));
+    const auto draw = [&random](double centre, double spread) { return std::max(centre + spread * random.normal(), 0.2 * centre); };
+    const double gain = draw(mean.gain, width.gain);
+    return {gain, draw(mean.pedestal, width.pedestal)};
+  }
+};
+
+/// The same calibration for every channel.
+struct uniform_calibration {
+  channel_calibration value{};
+
+  [[nodiscard]] channel_calibration operator()(const channel_id&) const { return value; }
+};
+
+/// What the ADC makes of a channel: counts, and the light that they mean.
+struct adc_reading {
+  int counts = 0;
+  double npe = 0.0;
+};
+
+/// The photon counter and its ADC.
+struct adc_response {
+  double resolution = 1.0;  ///< Gaussian response of the photon counter, photo-electrons
+  int largest_count = 255;  ///< 8 bits
+
+  /// Reading of `photo_electrons` > 0: rounded down, smeared, turned into counts, rounded down, limited to 0 .. largest_count, and back with the same calibration.
+  /// Less than one photo-electron is none and gives npe = 0 exactly.
+  [[nodiscard]] adc_reading read(double photo_electrons, const channel_calibration& calibration, random_stream& random) const {
+    const double whole = std::floor(photo_electrons);
+    if (!(whole > 0.0)) return {static_cast<int>(calibration.pedestal), 0.0};
+    const double smeared = whole + resolution * random.normal();
+    const double counts = std::clamp(std::floor(smeared * calibration.gain + calibration.pedestal), 0.0, static_cast<double>(largest_count));
+    return {static_cast<int>(counts), (counts - calibration.pedestal) / calibration.gain};
+  }
+};
+
+}  // namespace scifi

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+#include <cmath>
+#include <concepts>
+
+#include <scifi/core/constants.hpp>
+#include <scifi/core/linalg.hpp>
+#include <scifi/core/random.hpp>
+#include <scifi/material/concepts.hpp>
+#include <scifi/material/slab.hpp>
+
+namespace scifi {
+
+/// How a slab turns a particle: sample(p, particle, slab, path_over_thickness, random) -> the two projected angles (rad), of a plane each.
+/// Law: no thickness, no angle; the angles of N slices of a slab, added, are distributed as the slab's. Models: gaussian_scattering, coulomb_scattering.
+template <class T>
+concept scattering_sampler = requires(const T sampler, double p, const particle hypothesis, const slab s, double path_factor, random_stream random) {
+  { sampler.sample(p, hypothesis, s, path_factor, random) } -> std::convertible_to<vector<double, 2>>;
+};
+
+/// Gaussian angles of the variance that a scattering policy gives: no tails. `gaussian_scattering<no_scattering>` is a straight flight.
+template <scattering_policy Policy = highland_scattering>
+struct gaussian_scattering {
+  Policy policy{};
+
+  [[nodiscard]] vector<double, 2> sample(double p, const particle& hypothesis, const slab& s, double path_over_thickness, random_stream& random) const {
+    const double width = std::sqrt(policy.variance(p, hypothesis, s, path_over_thickness));
+    const double first = random.normal();
+    return {width * first, width * random.normal()};
+  }
+};
+
+/// Screened Coulomb scattering with its tail: angles above a limit one by one from Rutherford's law, the many below it as one Gaussian.
+///
+/// Single scattering in the small-angle form of Moliere's theory (Bethe, Phys. Rev. 89 (1953) 1256, eqs. 7, 10, 21):
+///   dn = 2 chi_c^2 theta^3 dtheta / (theta^2 + chi_a^2)^2,  chi_a^2 = chi_0^2 (1.13 + 3.76 (z Z alpha / beta)^2),
+///   chi_0 = alpha m_e Z^(1/3) / (0.885 p),  chi_c^2 = (E_s / 2)^2 z^2 x / (X0 ln(287 / sqrt(Z))) / (p beta)^2,  E_s = m_e sqrt(4 pi / alpha),
+/// the last from the definition of X0 (PDG 2024, eq. 34.27). The limit is chi_c of the slab, passed once per crossing on average; no angle
+/// exceeds hbar c / (p R), R = 1.2 fm (2 Z)^(1/3), where the nucleus is no longer a point. Valid for 3 < Z < 20 and angles below 0.3 rad.
+struct coulomb_scattering {
+  double nuclear_charge = 6.0;  ///< of the nuclei that scatter most: carbon in plastics
+
+  [[nodiscard]] vector<double, 2> sample(double p, const particle& hypothesis, const slab& s, double path_over_thickness, random_stream& random) const {
+    constexpr double alpha = 1.0 / 137.035999;
+    constexpr double hbar_c = 197.3269804;  // MeV fm
+    const double z = hypothesis.charge;
+    const double beta2 = p * p / (p * p + hypothesis.mass * hypothesis.mass);
+    const double quarter_es2 = constants::pi / alpha * constants::electron_mass * constants::electron_mass;
+    const double shape = std::log(287.0 / std::sqrt(nuclear_charge));
+    const double chi_c2 = quarter_es2 * z * z * radiation_lengths(s) * path_over_thickness / (shape * p * p * beta2);
+    if (!(chi_c2 > 0.0)) return {0.0, 0.0};
+    const double chi_0 = alpha * constants::electron_mass * std::cbrt(nuclear_charge) / (0.885 * p);
+    const double coulomb = z * nuclear_charge * alpha;
+    const double chi_a2 = chi_0 * chi_0 * (1.13 + 3.76 * coulomb * coulomb / beta2);
+
+    // Below the limit: half the mean square of the angle in space, chi_c^2 (ln(1 + r) - r / (1 + r)), r = chi_c^2 / chi_a^2, for each projection.
+    const double ratio = chi_c2 / chi_a2;
+    const double width = std::sqrt(0.5 * chi_c2 * (std::log1p(ratio) - ratio / (1.0 + ratio)));
+    const double first = random.normal();
+    vector<double, 2> angles{width * first, width * random.normal()};
+
+    // Above it screening no longer matters: the number beyond theta is chi_c^2 / theta^2.
+    const double largest = hbar_c / (p * 1.2 * std::cbrt(2.0 * nuclear_charge));
+    const double smallest_share = chi_c2 / (largest * largest);
+    const int hard = smallest_share < 1.0 ? random.poisson(1.0 - smallest_share) : 0;
+    for (int i = 0; i < hard; ++i) {
+      const double theta = std::sqrt(chi_c2 / random.uniform(smallest_share, 1.0));
+      const double azimuth = random.uniform(0.0, 2.0 * constants::pi);
+      angles += theta * vector<double, 2>(std::cos(azimuth), std::sin(azimuth));
+    }
+    return angles;
+  }
+};
+
+/// Turns a direction by two projected angles (rad), each about its own axis at right angles to it; its length stays.
+[[nodiscard]] inline vector<double, 3> turned_by(const vector<double, 3>& momentum, const vector<double, 2>& angles) {
+  const double angle = angles.norm();
+  if (!(angle > 0.0)) return momentum;
+  const double p = momentum.norm();
+  const vector<double, 3> forward = momentum / p;
+  // Any axis not along the momentum will do: the angles are isotropic.
+  const vector<double, 3> helper = std::abs(forward.x()) < 0.9 ? vector<double, 3>::UnitX() : vector<double, 3>::UnitY();
+  const vector<double, 3> first = (helper - helper.dot(forward) * forward).normalized();
+  const vector<double, 3> second{forward.y() * first.z() - forward.z() * first.y(), forward.z() * first.x() - forward.x() * first.z(),
+                                 forward.x() * first.y() - forward.y() * first.x()};
+  const vector<double, 3> sideways = (angles.x() * first + angles.y() * second) / angle;
+  return p * (std::cos(angle) * forward + std::sin(angle) * sideways);
+}
+
+}  // namespace scifi
