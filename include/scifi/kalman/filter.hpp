@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+#include <optional>
+#include <utility>
+
+#include <scifi/kalman/apply_gate.hpp>
+#include <scifi/kalman/factored_estimate.hpp>
+#include <scifi/kalman/gate.hpp>
+#include <scifi/kalman/joseph.hpp>
+#include <scifi/kalman/run.hpp>
+#include <scifi/kalman/sentences.hpp>
+#include <scifi/kalman/triangular.hpp>
+
+namespace scifi::kalman {
+
+/// The Kalman filter (Kalman 1960; extended to first order for non-linear parts), put together from its parts, which it keeps by value.
+///
+/// predict, update and run take an estimate, a factored estimate, or the result of a predict or update, so that calls chain; a status
+/// that is not ok is passed on and nothing is done. No call allocates, throws or changes the filter.
+template <class Propagator, class Noise = detail::missing_noise, class Update = joseph, class Gate = no_gate>
+class filter {
+  static_assert(!std::is_same_v<Noise, detail::missing_noise>, "scifi: the filter was given no process noise; write no_noise{} if there is none");
+
+ public:
+  constexpr explicit filter(Propagator propagator, Noise noise = Noise{}, Update update = Update{}, Gate gate = Gate{})
+      : propagator_(std::move(propagator)), noise_(std::move(noise)), update_(std::move(update)), gate_(std::move(gate)) {}
+
+  [[nodiscard]] constexpr const Propagator& propagator() const { return propagator_; }
+  [[nodiscard]] constexpr const Noise& noise() const { return noise_; }
+
+  /// The estimate after a step: mean f(x), covariance F P F' + Q. A std::optional step that is empty changes nothing.
+  template <class Prior, class Step>
+  [[nodiscard]] auto predict(const Prior& prior, const Step& step) const {
+    return predict_about(prior, step, nullptr);
+  }
+
+  /// The same with the model linearised at the state `about` at the start of the step: mean f(about) + F (x - about).
+  template <class Prior, class Step, class Scalar, int N>
+  [[nodiscard]] auto predict(const Prior& prior, const Step& step, const vector<Scalar, N>& about) const {
+    return predict_about(prior, step, &about);
+  }
+
+  /// The estimate with a measurement taken in. A variant or optional of measurements gives a result of run-time dimension.
+  template <class Prior, class Measurement>
+  [[nodiscard]] auto update(const Prior& prior, const Measurement& m) const {
+    return update_about(prior, m, nullptr);
+  }
+
+  /// The same with the measurement linearised at the state `about`.
+  template <class Prior, class Measurement, class Scalar, int N>
+  [[nodiscard]] auto update(const Prior& prior, const Measurement& m, const vector<Scalar, N>& about) const {
+    return update_about(prior, m, &about);
+  }
+
+  /// Filters over the sites in their order and leaves a node for each in `out` (contiguous, at least as many). Stops at the first failure.
+  template <class Prior, class Sites, class Nodes>
+  [[nodiscard]] auto run(const Prior& start, const Sites& sites, Nodes&& out) const {
+    return detail::run(*this, start, sites, out, detail::no_references{});
+  }
+
+  /// The same, linearised along reference states (contiguous range of vectors): references[k] is the state at the start of step k, that
+  /// is at site k-1; measurement k is taken at references[k+1], or, where that is not given, at the end of the step from references[k].
+  template <class Prior, class Sites, class Nodes, class References>
+  [[nodiscard]] auto run(const Prior& start, const Sites& sites, Nodes&& out, const References& references) const {
+    return detail::run(*this, start, sites, out, references);
+  }
+
+ private:
+  template <class Prior, class Step, class About>
+  [[nodiscard]] auto predict_about(const Prior& prior, const Step& step, const About& about) const {
+    if constexpr (detail::prior_fits<Prior>::value) {
+      using estimate_type = detail::estimate_type<Prior>;
+      using Scalar = typename estimate_type::scalar;
+      constexpr int N = estimate_type::dimension;
+      if constexpr (detail::is_optional<Step>) {
+        using result = basic_predicted<estimate_type>;
+        if (step) return result(predict_about(prior, *step, about));
+        return unmoved(detail::estimate_in(prior), detail::status_in(prior));
+      } else if constexpr (detail::model_spaces_agree<Propagator, Noise>::value && detail::propagator_fits<Propagator, Scalar, N, Step>::value &&
+                           detail::noise_fits<Noise, Scalar, N, Step>::value) {
+        if (!detail::status_in(prior).ok()) return unmoved(detail::estimate_in(prior), detail::status_in(prior));
+        return advanced(detail::estimate_in(prior), step, about);
+      } else {
+        return unmoved(detail::estimate_in(prior), status{});
+      }
+    }
+  }
+
+  template <class Estimate>
+  [[nodiscard]] static basic_predicted<Estimate> unmoved(const Estimate& e, status s) {
+    using square = matrix<typename Estimate::scalar, Estimate::dimension, Estimate::dimension>;
+    return {e, square::Identity(), square::Zero(), s};
+  }
+
+  template <class Estimate, class Step, class About>
+  [[nodiscard]] basic_predicted<Estimate> advanced(const Estimate& prior, const Step& step, const About& about) const {
+    using Scalar = typename Estimate::scalar;
+    constexpr int N = Estimate::dimension;
+    constexpr bool relinearised = !std::is_same_v<About, std::nullptr_t>;
+    const vector<Scalar, N>& from = [&]() -> const vector<Scalar, N>& {
+      if constexpr (relinearised) return *about;
+      else return prior.mean;
+    }();
+    const propagated<Scalar, N> moved = propagate(propagator_, from, step);
+    basic_predicted<Estimate> out{{moved.state, {}}, moved.jacobian, detail::noise_covariance<Scalar, N>(noise_, from, step, moved), {}};
+    if constexpr (relinearised) out.estimate.mean.noalias() += moved.jacobian.lazyProduct(prior.mean - from);
+    if constexpr (std::is_same_v<Estimate, kalman::estimate<Scalar, N>>) {
+      out.estimate.covariance = detail::similarity<Scalar, N, N>(moved.jacobian, prior.covariance, out.noise);
+      out.status.why = fault_of(out.estimate.mean, out.estimate.covariance);
+    } else {
+      matrix<Scalar, N, 2 * N> array;
+      array.template leftCols<N>() = moved.jacobian.lazyProduct(prior.factor);
+      array.template rightCols<N>() = semidefinite_factor<Scalar, N>(out.noise);
+      out.estimate.factor = lower_triangular<Scalar, N, 2 * N>(array);
+      out.status.why = fault_of(out.estimate.mean, out.estimate.factor);
+    }
+    if (!out.status.ok()) out.estimate = prior;
+    return out;
+  }
+
+  template <class Prior, class Measurement, class About>
+  [[nodiscard]] auto update_about(const Prior& prior, const Measurement& m, const About& about) const {
+    if constexpr (detail::prior_fits<Prior>::value) {
+      using estimate_type = detail::estimate_type<Prior>;
+      constexpr int M = max_measurement_dimension<Measurement>;
+      if constexpr (mixed_measurement<Measurement>) {
+        using result = basic_updated<estimate_type, Eigen::Dynamic, M>;
+        return detail::visit_measurement(m, [&](const auto& one) -> result { return detail::mixed<result>(update_about(prior, one, about)); });
+      } else {
+        basic_updated<estimate_type, M> out{detail::estimate_in(prior), {}, {}, {}, {}};
+        out.status = detail::status_in(prior);
+        if constexpr (!std::is_same_v<Measurement, no_measurement>) {
+          if (out.status.ok()) take_in(out, m, about);
+          else detail::clear(out);
+        } else if (out.status.ok()) {
+          out.status.step = step_kind::update;
+        }
+        return out;
+      }
+    }
+  }
+
+  template <class Estimate, int M, class Measurement, class About>
+  void take_in(basic_updated<Estimate, M>& out, const Measurement& m, const About& about) const {
+    using Scalar = typename Estimate::scalar;
+    constexpr int N = Estimate::dimension;
+    if constexpr (detail::measurement_space_agrees<Propagator, Measurement>::value && detail::measurement_fits<Measurement, Scalar, N>::value &&
+                  detail::gate_fits<Gate, Scalar>::value) {
+      if constexpr (std::is_same_v<About, std::nullptr_t>) {
+        if constexpr (detail::update_fits<Update, Estimate, Measurement>::value) detail::apply_gate(gate_, update_(out.posterior, m), out);
+      } else {
+        if constexpr (detail::update_fits<Update, Estimate, linear_measurement<Scalar, N, M>>::value)
+          detail::apply_gate(gate_, update_(out.posterior, linearise(m, *about)), out);
+      }
+    }
+  }
+
+  [[no_unique_address]] Propagator propagator_;
+  [[no_unique_address]] Noise noise_;
+  [[no_unique_address]] Update update_;
+  [[no_unique_address]] Gate gate_;
+};
+
+}  // namespace scifi::kalman
