@@ -39,7 +39,7 @@ UMBRELLAS = {
 }
 # third-party headers, by folder; everywhere else Eigen is the only one
 EIGEN = ("Eigen/", "unsupported/Eigen/")
-THIRD_PARTY = {"io": EIGEN + ("nlohmann/", "zlib.h")}
+THIRD_PARTY = {"io": EIGEN + ("nlohmann/", "zlib.h", "fcntl.h", "unistd.h")}
 # headers of the standard library with a slash or a suffix in their name
 STANDARD = ("experimental/simd",)
 
