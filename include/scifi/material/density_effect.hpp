@@ -18,7 +18,7 @@ struct density_effect_correction {
 
 /// delta(x), x = log10(beta gamma), PDG 2024 eq. 34.7 (Sternheimer's parametrisation), for beta gamma > 0:
 /// 2 ln10 x - C above x1; 2 ln10 x - C + a (x1 - x)^m between x0 and x1; delta0 10^(2(x - x0)) below x0 (zero in insulators).
-/// The tabulated parameters leave steps of up to 1e-2 at x0; they are part of the parametrisation.
+/// The rounding of the tabulated parameters leaves steps below 3e-4 at x0.
 template <scalar Scalar>
 [[nodiscard]] density_effect_correction<Scalar> density_effect(const Scalar& beta_gamma, const material::sternheimer& s) {
   using std::exp;
