@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: MPL-2.0
+// expect: the filter was given no process noise; write no_noise{}
+#include <scifi/kalman.hpp>
+
+struct constant_velocity {
+  scifi::matrix<double, 2, 2> transition(double dt) const { return (scifi::matrix<double, 2, 2>() << 1.0, dt, 0.0, 1.0).finished(); }
+};
+
+int main() {
+  const scifi::kalman::estimate start{scifi::vector<double, 2>(0.0, 0.0), scifi::matrix<double, 2, 2>(scifi::matrix<double, 2, 2>::Identity())};
+  const auto end = scifi::kalman::filter{constant_velocity{}}.predict(start, 1.0);
+  return end.status.ok() ? 0 : 1;
+}

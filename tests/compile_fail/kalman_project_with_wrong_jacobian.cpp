@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: MPL-2.0
+// expect: the measurement's project(x) must return a value of size M and a jacobian of M x N
+#include <scifi/kalman.hpp>
+
+struct constant_velocity {
+  scifi::matrix<double, 2, 2> transition(double dt) const { return (scifi::matrix<double, 2, 2>() << 1.0, dt, 0.0, 1.0).finished(); }
+};
+
+struct position {
+  double value() const { return 1.0; }
+  double covariance() const { return 0.01; }
+  scifi::kalman::projected<double, 1, 3> project(const scifi::vector<double, 2>&) const { return {}; }
+};
+
+int main() {
+  const scifi::kalman::estimate start{scifi::vector<double, 2>(0.0, 0.0), scifi::matrix<double, 2, 2>(scifi::matrix<double, 2, 2>::Identity())};
+  const auto after = scifi::kalman::filter{constant_velocity{}, scifi::kalman::no_noise{}}.update(start, position{});
+  return after.status.ok() ? 0 : 1;
+}

@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: MPL-2.0
+// expect: the propagator's transition(step) must be a fixed-size N x N matrix
+#include <scifi/kalman.hpp>
+
+struct motion {
+  Eigen::MatrixXd transition(double) const { return Eigen::MatrixXd::Identity(2, 2); }
+};
+
+int main() {
+  const scifi::kalman::estimate start{scifi::vector<double, 2>(0.0, 0.0), scifi::matrix<double, 2, 2>(scifi::matrix<double, 2, 2>::Identity())};
+  const auto end = scifi::kalman::filter{motion{}, scifi::kalman::no_noise{}}.predict(start, 1.0);
+  return end.status.ok() ? 0 : 1;
+}
