@@ -29,9 +29,9 @@ inline constexpr int downstream = 1;  ///< TKD: the beam meets station 1 first a
   p.channel_width = fibre.channel_width();
   p.z_reference = z;
   p.z_measured = z + fibre.mylar_thickness + half;
-  p.below.push_back({mylar, fibre.mylar_thickness, layer});
-  p.below.push_back({polystyrene, half, layer});
-  p.above.push_back({polystyrene, half, layer});
+  p.below.add({mylar, fibre.mylar_thickness, layer});
+  p.below.add({polystyrene, half, layer});
+  p.above.add({polystyrene, half, layer});
   return p;
 }
 

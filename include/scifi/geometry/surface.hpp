@@ -28,13 +28,6 @@ struct surface {
   [[nodiscard]] double tracker_to_alpha(double x, double y) const { return cos_angle * x + sin_angle * y - offset; }
 };
 
-/// Total thickness of a stack, mm.
-[[nodiscard]] inline double thickness(const slab_stack<4>& stack) {
-  double sum = 0.0;
-  for (const slab& s : stack) sum += s.thickness;
-  return sum;
-}
-
 /// The surfaces of a tracker in the order in which something that travels along `direction` (+1: growing z, -1: falling z) meets them.
 /// The stacks keep their order of growing z: a traveller in the other direction meets `above` first.
 [[nodiscard]] inline std::vector<surface> surfaces_along(const tracker& t, int direction) {

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: MPL-2.0
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <concepts>
 
 #include <scifi/core/constants.hpp>
 #include <scifi/core/linalg.hpp>
 #include <scifi/core/random.hpp>
+#include <scifi/core/scalar.hpp>
 #include <scifi/material/concepts.hpp>
 #include <scifi/material/slab.hpp>
 
@@ -33,11 +35,12 @@ struct gaussian_scattering {
 
 /// Screened Coulomb scattering with its tail: angles above a limit one by one from Rutherford's law, the many below it as one Gaussian.
 ///
-/// Single scattering in the small-angle form of Moliere's theory (Bethe, Phys. Rev. 89 (1953) 1256, eqs. 7, 10, 21):
-///   dn = 2 chi_c^2 theta^3 dtheta / (theta^2 + chi_a^2)^2,  chi_a^2 = chi_0^2 (1.13 + 3.76 (z Z alpha / beta)^2),
+/// Single scattering in the small-angle form of Moliere's theory (Bethe, Phys. Rev. 89 (1953) 1256):
+///   dn = 2 chi_c^2 theta dtheta / (theta^2 + chi_a^2)^2,  chi_a^2 = chi_0^2 (1.13 + 3.76 (z Z alpha / beta)^2),
 ///   chi_0 = alpha m_e Z^(1/3) / (0.885 p),  chi_c^2 = (E_s / 2)^2 z^2 x / (X0 ln(287 / sqrt(Z))) / (p beta)^2,  E_s = m_e sqrt(4 pi / alpha),
-/// the last from the definition of X0 (PDG 2024, eq. 34.27). The limit is chi_c of the slab, passed once per crossing on average; no angle
-/// exceeds hbar c / (p R), R = 1.2 fm (2 Z)^(1/3), where the nucleus is no longer a point. Valid for 3 < Z < 20 and angles below 0.3 rad.
+/// the last from the definition of X0 (PDG 2024, eq. 34.27). One in Z + 1 scatters is off an electron, which turns a particle of mass m by
+/// m_e / m at most; the nuclei turn it by hbar c / (p R), R = 1.2 fm (2 Z)^(1/3), at most, where they are no longer points.
+/// The limit is chi_c of the slab, passed about once per crossing. Valid for 3 < Z < 20 and angles below 0.3 rad.
 struct coulomb_scattering {
   double nuclear_charge = 6.0;  ///< of the nuclei that scatter most: carbon in plastics
 
@@ -53,21 +56,25 @@ struct coulomb_scattering {
     const double chi_0 = alpha * constants::electron_mass * std::cbrt(nuclear_charge) / (0.885 * p);
     const double coulomb = z * nuclear_charge * alpha;
     const double chi_a2 = chi_0 * chi_0 * (1.13 + 3.76 * coulomb * coulomb / beta2);
+    const double off_electrons = 1.0 / (nuclear_charge + 1.0);
+    const double electrons_to2 = square(constants::electron_mass / hypothesis.mass);
+    const double nuclei_to = hbar_c / (p * 1.2 * std::cbrt(2.0 * nuclear_charge));
 
-    // Below the limit: half the mean square of the angle in space, chi_c^2 (ln(1 + r) - r / (1 + r)), r = chi_c^2 / chi_a^2, for each projection.
-    const double ratio = chi_c2 / chi_a2;
-    const double width = std::sqrt(0.5 * chi_c2 * (std::log1p(ratio) - ratio / (1.0 + ratio)));
+    // Below the limit: half the mean square of the angle in space for each projection.
+    const auto mean_square_up_to = [&](double theta2) { return std::log1p(theta2 / chi_a2) - theta2 / (theta2 + chi_a2); };
+    const double shares = (1.0 - off_electrons) * mean_square_up_to(chi_c2) + off_electrons * mean_square_up_to(std::min(chi_c2, electrons_to2));
+    const double width = std::sqrt(0.5 * chi_c2 * shares);
     const double first = random.normal();
     vector<double, 2> angles{width * first, width * random.normal()};
 
     // Above it screening no longer matters: the number beyond theta is chi_c^2 / theta^2.
-    const double largest = hbar_c / (p * 1.2 * std::cbrt(2.0 * nuclear_charge));
-    const double smallest_share = chi_c2 / (largest * largest);
+    const double smallest_share = chi_c2 / square(nuclei_to);
     const int hard = smallest_share < 1.0 ? random.poisson(1.0 - smallest_share) : 0;
     for (int i = 0; i < hard; ++i) {
-      const double theta = std::sqrt(chi_c2 / random.uniform(smallest_share, 1.0));
+      const double theta2 = chi_c2 / random.uniform(smallest_share, 1.0);
       const double azimuth = random.uniform(0.0, 2.0 * constants::pi);
-      angles += theta * vector<double, 2>(std::cos(azimuth), std::sin(azimuth));
+      if (random.uniform() < off_electrons && theta2 > electrons_to2) continue;
+      angles += std::sqrt(theta2) * vector<double, 2>(std::cos(azimuth), std::sin(azimuth));
     }
     return angles;
   }

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include <scifi/geometry/surface.hpp>
+#include <scifi/track_model/leg.hpp>
+
+namespace scifi {
+
+/// The way of a fit through a tracker: the measuring surfaces against z, last station first, and behind them the reference surface of the tracker.
+///
+/// Leg k leads to surface k; leg 0 has no length. The last leg leads to the reference surface (z = 0 of the tracker frame, station 1), where nothing is
+/// measured. Between surfaces stand the thin material above the one, the gas, and the thin material below the other.
+struct fit_path {
+  std::vector<surface> surfaces;
+  std::vector<leg> legs;  ///< one more than surfaces
+  double z_reference = 0.0;
+};
+
+/// Builds the way for a tracker.
+[[nodiscard]] inline fit_path fit_path_of(const tracker& t) {
+  constexpr double touching = 1e-6;  // mm: surfaces this close have no gas between them
+  fit_path path;
+  path.surfaces = surfaces_along(t, -1);
+  const auto between = [&t](double dz, const slab_stack<4>& leaving, const slab_stack<4>& entering) {
+    leg l;
+    l.dz = dz;
+    l.direction = -1;
+    l.start = leaving;
+    l.finish = entering;
+    const double free = -dz - thickness(leaving) - thickness(entering);
+    if (free > touching) l.gap.add(whole(t.gas, free));
+    return l;
+  };
+  for (std::size_t i = 0; i < path.surfaces.size(); ++i) {
+    if (i == 0)
+      path.legs.push_back(leg{0.0, -1, {}, {}, {}});
+    else
+      path.legs.push_back(between(path.surfaces[i].z - path.surfaces[i - 1].z, path.surfaces[i - 1].below, path.surfaces[i].above));
+  }
+  if (!path.surfaces.empty()) {
+    const surface& first = path.surfaces.back();
+    path.z_reference = first.z_reference;
+    path.legs.push_back(between(first.z_reference - first.z, first.below, {}));
+  }
+  return path;
+}
+
+}  // namespace scifi

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+#include <scifi/candidate_to_track/track_fitter.hpp>
+#include <scifi/cluster_to_space_point/space_point_finder.hpp>
+#include <scifi/digit_to_cluster/cluster_finder.hpp>
+#include <scifi/event/event.hpp>
+#include <scifi/geometry/tracker.hpp>
+#include <scifi/material/energy_loss.hpp>
+#include <scifi/material/scattering.hpp>
+#include <scifi/material/straggling.hpp>
+#include <scifi/space_point_to_candidate/track_finder.hpp>
+
+namespace scifi {
+
+/// The stages that work on one tracker.
+template <class CandidateFinder, class TrackFitter>
+struct tracker_stages {
+  tracker where;
+  CandidateFinder find_candidates;
+  TrackFitter fit_track;
+};
+
+/// The whole chain as a value: digits -> clusters -> space points -> candidates -> tracks. Every stage is a type of its own and can be replaced.
+///
+/// Const calls; threads share one chain, each with its own `buffers` and events.
+template <class ClusterFinder, class SpacePointFinder, class CandidateFinder, class TrackFitter>
+class reconstruction {
+ public:
+  using stages = tracker_stages<CandidateFinder, TrackFitter>;
+
+  /// Memory that the stages work in. Handed in again it stops growing, and reconstruction no longer allocates.
+  struct buffers {
+    typename SpacePointFinder::buffers space_points;
+    typename CandidateFinder::buffers candidates;
+    typename TrackFitter::buffers fit;
+  };
+
+  reconstruction(detector where, ClusterFinder clusters, SpacePointFinder points, std::vector<stages> trackers)
+      : where_(std::move(where)), find_clusters_(std::move(clusters)), find_points_(std::move(points)), trackers_(std::move(trackers)) {}
+
+  /// Fills the event from its digits, which are sorted on the way. What was reconstructed before is replaced.
+  void operator()(event& e, buffers& work) const {
+    e.clear_reconstruction();
+    find_clusters_(where_, e.digits, e.clusters);
+    for (const stages& s : trackers_) {
+      const std::size_t first_candidate = e.candidates.size();
+      const bool points_complete = find_points_(s.where, e.clusters, e.space_points, work.space_points);
+      const bool candidates_complete = s.find_candidates(e.space_points, e.clusters.size(), e.candidates, work.candidates);
+      e.flags.combinations_limited |= !points_complete || !candidates_complete;
+      for (std::size_t i = first_candidate; i < e.candidates.size(); ++i) {
+        s.fit_track(e.candidates[i], static_cast<int>(i), e.space_points, e.clusters, e.tracks, e.track_points, work.fit);
+        e.flags.fit_failed |= !e.tracks.back().status.ok();
+      }
+    }
+  }
+
+  /// The same with memory of its own for this call.
+  void operator()(event& e) const {
+    buffers work;
+    (*this)(e, work);
+  }
+
+  [[nodiscard]] const detector& where() const { return where_; }
+
+ private:
+  detector where_;
+  ClusterFinder find_clusters_;
+  SpacePointFinder find_points_;
+  std::vector<stages> trackers_;
+};
+
+/// What a user chooses for the chain of the fibre trackers; everything else has its documented default in the stage.
+struct reconstruction_options {
+  double field = 0.0;               ///< Bz in the tracker frames, (MeV/c)/(e mm): tesla times units::tesla; zero: straight tracks
+  particle hypothesis = muon_plus;  ///< mass for scattering and energy loss; the charge is found in a field
+  double min_npe = 2.0;             ///< photo-electrons
+  double line_momentum = 200.0;     ///< MeV/c, assumed for straight tracks
+};
+
+/// The standard chain for trackers of scintillating fibres.
+[[nodiscard]] inline auto make_reconstruction(const detector& where, const reconstruction_options& options) {
+  const highland_scattering scattering;
+  // A track crosses all planes of its tracker: the typical loss is the median of the total.
+  const double planes = where.trackers.empty() ? 1.0 : [&] {
+    std::size_t count = 0;
+    for (const station& s : where.trackers.front().stations) count += s.planes.size();
+    return static_cast<double>(count);
+  }();
+  const median_energy_loss loss{planes};
+  const landau_straggling straggling{planes};
+  using fitter = track_fitter<median_energy_loss, highland_scattering, landau_straggling>;
+
+  track_finder_options finding;
+  finding.field = options.field;
+  finding.line_momentum = options.line_momentum;
+  finding.line_charge = options.hypothesis.charge < 0 ? -1 : 1;
+  finding.min_stations = options.field != 0.0 ? 4 : 3;
+  track_fit_options fitting;
+  fitting.field = options.field;
+  fitting.line_momentum = options.line_momentum;
+
+  cluster_finder<fibre_resolution> clusters;
+  clusters.min_npe = options.min_npe;
+  std::vector<tracker_stages<track_finder, fitter>> trackers;
+  for (const tracker& t : where.trackers)
+    trackers.push_back({t, track_finder(t, finding, options.hypothesis, scattering), fitter(t, fitting, options.hypothesis, loss, scattering, straggling)});
+  return reconstruction(where, clusters, space_point_finder{}, std::move(trackers));
+}
+
+}  // namespace scifi

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+#include <cstddef>
+
+#include <scifi/kalman/filter.hpp>
+#include <scifi/kalman/smoother.hpp>
+
+namespace scifi::kalman {
+
+/// Filters and smooths several times, each pass linearised along the smoothed states of the one before: the Gauss-Newton iteration for the whole
+/// track, iterated extended Kalman smoother (Bell, SIAM J. Optim. 4 (1994) 626). The first pass is linearised along the flight of `seed`.
+///
+/// `sites`, `nodes` and `references` are contiguous; nodes has as many elements as sites, references one more. Does not allocate. With one pass and a
+/// good seed this is the filter linearised about a reference track. On failure the nodes reached are kept as `run` leaves them.
+template <class Filter, class Scalar, int N, class Sites, class Nodes, class References>
+[[nodiscard]] run_result<Scalar> run_relinearised(const Filter& filter, const estimate<Scalar, N>& start, const vector<Scalar, N>& seed, const Sites& sites, Nodes& nodes,
+                                                  References& references, int passes) {
+  references[0] = seed;
+  std::size_t k = 0;
+  for (const auto& site : sites) {
+    references[k + 1] = detail::arrival(filter.propagator(), references[k], site.step);
+    ++k;
+  }
+  run_result<Scalar> result;
+  for (int pass = 0; pass < passes; ++pass) {
+    if (pass > 0) {
+      references[0] = nodes[0].smoothed.mean;
+      for (std::size_t i = 0; i < k; ++i) references[i + 1] = nodes[i].smoothed.mean;
+    }
+    result = filter.run(start, sites, nodes, references);
+    if (!result.status.ok()) return result;
+    result.status = smooth(nodes);
+    if (!result.status.ok()) return result;
+  }
+  return result;
+}
+
+}  // namespace scifi::kalman
