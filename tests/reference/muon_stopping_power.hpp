@@ -14,15 +14,15 @@ struct stopping_power {
 // Muons, "Ionization" column. Groom, Mokhov, Striganov, At. Data Nucl. Data Tables 78 (2001) 183, in the edition of
 // pdg.lbl.gov/2021/AtomicNuclearProperties: aluminium.
 inline constexpr std::array muon_in_aluminium{
-    stopping_power{10, 6.188},  stopping_power{14, 4.849},  stopping_power{20, 3.802},  stopping_power{30, 2.960},   stopping_power{40, 2.533},
-    stopping_power{60, 2.110},  stopping_power{80, 1.908},  stopping_power{100, 1.797}, stopping_power{140, 1.688},  stopping_power{200, 1.629},
+    stopping_power{10, 6.188},  stopping_power{14, 4.849},  stopping_power{20, 3.802},  stopping_power{30, 2.960},  stopping_power{40, 2.533},
+    stopping_power{60, 2.110},  stopping_power{80, 1.908},  stopping_power{100, 1.797}, stopping_power{140, 1.688}, stopping_power{200, 1.629},
     stopping_power{300, 1.616}, stopping_power{500, 1.650}, stopping_power{1e3, 1.744}, stopping_power{1e4, 2.097}, stopping_power{1e5, 2.360},
 };
 // The same, edition 2022 and 2024: liquid hydrogen, helium.
 inline constexpr std::array muon_in_liquid_hydrogen{stopping_power{40, 6.539}, stopping_power{1e3, 4.182}, stopping_power{1e4, 4.777},
                                                     stopping_power{1e5, 5.305}};
-inline constexpr std::array muon_in_helium{stopping_power{40, 3.082}, stopping_power{100, 2.165}, stopping_power{1e3, 2.133},
-                                           stopping_power{1e4, 2.768}, stopping_power{1e5, 3.188}};
+inline constexpr std::array muon_in_helium{stopping_power{40, 3.082}, stopping_power{100, 2.165}, stopping_power{1e3, 2.133}, stopping_power{1e4, 2.768},
+                                           stopping_power{1e5, 3.188}};
 // Muons, computed by PUMAS 1.00 with the same inputs (niess/pumas-materials, dedx/muon): the other media. Lithium hydride only above
 // 70 MeV: that table takes x0 = +0.0988 for -0.0988, which shows in its delta between 30 and 70 MeV.
 inline constexpr std::array muon_in_polystyrene{

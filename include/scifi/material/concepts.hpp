@@ -20,7 +20,9 @@ concept gives_variance = requires(const Policy policy, const Scalar p, const par
 };
 
 template <class Policy, class Quantity>
-concept declares_variance_of = requires { requires std::same_as<typename Policy::variance_of, Quantity>; };
+concept declares_variance_of = requires {
+  requires std::same_as<typename Policy::variance_of, Quantity>;
+};
 
 }  // namespace detail
 

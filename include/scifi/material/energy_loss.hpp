@@ -45,7 +45,8 @@ namespace detail {
 
 /// Mode plus `offset` xi of the loss in `layers` equal layers, the share of one slab, between zero and the slab's mean loss.
 template <scalar Scalar>
-[[nodiscard]] energy_loss<Scalar> landau_loss(const Scalar& p, const particle& hypothesis, const slab& s, const Scalar& path_factor, double layers, double offset) {
+[[nodiscard]] energy_loss<Scalar> landau_loss(const Scalar& p, const particle& hypothesis, const slab& s, const Scalar& path_factor, double layers,
+                                              double offset) {
   const ionisation_kinematics<Scalar> k = ionisation_kinematics_of(p, hypothesis);
   const Scalar xi_normal = landau_xi(k, hypothesis, s.medium, Scalar(s.thickness));
   const Scalar xi = xi_normal * path_factor;

@@ -36,8 +36,8 @@ struct particle_alias {
 };
 
 inline constexpr std::array particle_aliases{
-    particle_alias{"e", 11},        particle_alias{"electron", 11}, particle_alias{"positron", -11}, particle_alias{"mu", 13},
-    particle_alias{"muon", 13},     particle_alias{"pi", 211},      particle_alias{"pion", 211},     particle_alias{"p+", 2212},
+    particle_alias{"e", 11},        particle_alias{"electron", 11}, particle_alias{"positron", -11},     particle_alias{"mu", 13},
+    particle_alias{"muon", 13},     particle_alias{"pi", 211},      particle_alias{"pion", 211},         particle_alias{"p+", 2212},
     particle_alias{"proton", 2212}, particle_alias{"p-", -2212},    particle_alias{"antiproton", -2212},
 };
 

@@ -21,9 +21,7 @@ struct slab {
 };
 
 /// A layer of one piece, `thickness` in mm along z.
-[[nodiscard]] constexpr slab whole(const material& medium, double thickness) {
-  return {medium, thickness, thickness / medium.radiation_length};
-}
+[[nodiscard]] constexpr slab whole(const material& medium, double thickness) { return {medium, thickness, thickness / medium.radiation_length}; }
 
 /// One of `slices` equal slices of a slab; the layer it belongs to stays. Throws std::invalid_argument when slices < 1.
 [[nodiscard]] constexpr slab split(const slab& original, int slices) {

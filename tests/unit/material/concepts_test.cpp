@@ -12,9 +12,9 @@ namespace {
 template <class Scalar>
 constexpr bool all_policies_model_their_concepts() {
   return energy_loss_policy<mean_energy_loss, Scalar> && energy_loss_policy<most_probable_energy_loss, Scalar> &&
-         energy_loss_policy<median_energy_loss, Scalar> && energy_loss_policy<no_energy_loss, Scalar> &&
-         scattering_policy<highland_scattering, Scalar> && scattering_policy<no_scattering, Scalar> &&
-         straggling_policy<bohr_straggling, Scalar> && straggling_policy<landau_straggling, Scalar> && straggling_policy<no_straggling, Scalar>;
+         energy_loss_policy<median_energy_loss, Scalar> && energy_loss_policy<no_energy_loss, Scalar> && scattering_policy<highland_scattering, Scalar> &&
+         scattering_policy<no_scattering, Scalar> && straggling_policy<bohr_straggling, Scalar> && straggling_policy<landau_straggling, Scalar> &&
+         straggling_policy<no_straggling, Scalar>;
 }
 
 struct fixed_angle {  // a user's policy, without any declaration

@@ -23,7 +23,8 @@ TEST_CASE("The density effect is the published one", "[material]") {
   // Column delta of the muon tables (see tests/reference): beta gamma = p / 105.65839, printed to 1e-4; p is printed to 4 digits,
   // and d delta / d ln p <= 2 ln 10 / ln 10 = 2 gives 2 * 5e-4. PUMAS rounds a and Z/A: 2e-3 in aluminium's conducting branch.
   const auto delta = [](double p, const material& m) { return density_effect(p / 105.65839, m.density_effect).value; };
-  for (const auto& [p, value] : {std::pair{47.04, 0.0108}, {100.3, 0.0492}, {152.7, 0.1141}, {221.8, 0.1725}, {286.8, 0.2686}, {1101.0, 1.4347}, {10110.0, 4.9717}}) {
+  for (const auto& [p, value] :
+       {std::pair{47.04, 0.0108}, {100.3, 0.0492}, {152.7, 0.1141}, {221.8, 0.1725}, {286.8, 0.2686}, {1101.0, 1.4347}, {10110.0, 4.9717}}) {
     CHECK(delta(p, materials::aluminium) == Approx(value).margin(2e-3));
   }
   for (const auto& [p, value] : {std::pair{152.7, 0.0}, {164.7, 0.0316}, {221.8, 0.2131}, {286.8, 0.4111}, {1101.0, 1.9756}, {10110.0, 5.8416}}) {

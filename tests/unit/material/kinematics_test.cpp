@@ -17,9 +17,9 @@ TEST_CASE("The largest transfer is that of a head-on collision", "[material]") {
       const auto k = ionisation_kinematics_of(p, h);
       const double m_e = constants::electron_mass;
       const double energy = std::hypot(p, h.mass);
-      const double boost = p / (energy + m_e);                        // velocity of the centre of mass
+      const double boost = p / (energy + m_e);  // velocity of the centre of mass
       const double boost_gamma = 1.0 / std::sqrt((1.0 - boost) * (1.0 + boost));
-      const double p_star = boost_gamma * boost * m_e;                // electron's momentum there
+      const double p_star = boost_gamma * boost * m_e;  // electron's momentum there
       const double e_star = boost_gamma * m_e;
       const double transfer = boost_gamma * (e_star + boost * p_star) - m_e;  // after reversal, back in the laboratory
       CHECK(k.largest_transfer == Approx(transfer).epsilon(1e-9));

@@ -15,8 +15,8 @@ namespace {
 struct element {
   double z, a, x0;  // x0 in g/cm2: Tsai, Rev. Mod. Phys. 46 (1974) 815, as in the PDG's table of elements
 };
-constexpr element hydrogen{1, 1.00794, 63.04}, lithium{3, 6.941, 82.78}, carbon{6, 12.0107, 42.70}, nitrogen{7, 14.0067, 37.99},
-    oxygen{8, 15.9994, 34.24}, argon{18, 39.948, 19.55};
+constexpr element hydrogen{1, 1.00794, 63.04}, lithium{3, 6.941, 82.78}, carbon{6, 12.0107, 42.70}, nitrogen{7, 14.0067, 37.99}, oxygen{8, 15.9994, 34.24},
+    argon{18, 39.948, 19.55};
 
 struct mixture {
   double z_over_a, radiation_length;

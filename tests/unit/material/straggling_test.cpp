@@ -57,6 +57,8 @@ TEST_CASE("Zero thickness, vacuum and no_straggling straggle exactly nothing", "
 
 TEST_CASE("Single precision gives the straggling to single precision", "[material]") {
   const slab s = whole(materials::polystyrene, 0.6273);
-  CHECK(static_cast<double>(landau_straggling{}.variance(200.0f, muon_plus, s, 1.25f)) == Approx(landau_straggling{}.variance(200.0, muon_plus, s, 1.25)).epsilon(3e-6));
-  CHECK(static_cast<double>(bohr_straggling{}.variance(200.0f, muon_plus, s, 1.25f)) == Approx(bohr_straggling{}.variance(200.0, muon_plus, s, 1.25)).epsilon(3e-6));
+  CHECK(static_cast<double>(landau_straggling{}.variance(200.0f, muon_plus, s, 1.25f)) ==
+        Approx(landau_straggling{}.variance(200.0, muon_plus, s, 1.25)).epsilon(3e-6));
+  CHECK(static_cast<double>(bohr_straggling{}.variance(200.0f, muon_plus, s, 1.25f)) ==
+        Approx(bohr_straggling{}.variance(200.0, muon_plus, s, 1.25)).epsilon(3e-6));
 }
