@@ -25,6 +25,7 @@ class atomic_file {
   explicit atomic_file(const std::filesystem::path& path) : name_(path.string()) {
     namespace fs = std::filesystem;
     std::error_code none;
+    if (name_.empty()) fail_to_open("the name is empty");
     if (path.filename().empty() || fs::is_directory(path, none)) fail_to_open("is a folder");
     final_ = fs::is_symlink(path, none) ? fs::weakly_canonical(path, none) : path;
     in_place_ = name_.starts_with("/dev/") || (fs::exists(final_, none) && !fs::is_regular_file(final_, none));

@@ -18,7 +18,7 @@
 namespace scifi {
 
 /// Splits a line at its commas into `out`: blanks around a field and double quotes around its text are dropped. A comma between quotes
-/// belongs to the field; a doubled quote inside stays doubled.
+/// belongs to the field; a doubled quote inside stays doubled; a quote that is not closed keeps the rest of the line.
 inline void split_fields(std::string_view line, std::vector<std::string_view>& out) {
   constexpr std::string_view blanks = " \t";
   out.clear();

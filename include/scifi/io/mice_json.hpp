@@ -34,6 +34,7 @@ class mice_json_reader {
     out.number = number_++;
     if (!entry.has("sci_fi_event") || entry.at("sci_fi_event").is_null()) return true;
     const json_field content = entry.at("sci_fi_event");
+    if (!content.value().is_object()) content.fail("is not an object");
     if (!content.has("digits") || content.at("digits").is_null()) return true;
     const json_field digits = content.at("digits");
     const std::size_t count = digits.size();
