@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: MPL-2.0
+#include <scifi/event/truth.hpp>
+
+#include "support/catch.hpp"
+
+TEST_CASE("clearing the truth of an event empties it and keeps its memory", "[event]") {
+  scifi::truth t;
+  t.crossings.resize(15);
+  t.hits.resize(30);
+  const auto crossings = t.crossings.capacity();
+  const auto hits = t.hits.capacity();
+  t.clear();
+  CHECK(t.crossings.empty());
+  CHECK(t.hits.empty());
+  CHECK(t.crossings.capacity() == crossings);
+  CHECK(t.hits.capacity() == hits);
+}

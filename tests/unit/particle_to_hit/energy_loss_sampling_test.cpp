@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: MPL-2.0
+#include <scifi/particle_to_hit/energy_loss_sampling.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "support/catch.hpp"
+
+using namespace scifi;
+
+namespace {
+
+static_assert(energy_loss_sampler<collision_loss> && energy_loss_sampler<fixed_loss<>>);
+
+std::vector<double> losses(double p, const particle& hypothesis, const material& medium, double path, int pieces, int n, std::uint64_t seed) {
+  std::vector<double> out;
+  for (int i = 0; i < n; ++i) {
+    random_stream random(seed, static_cast<std::uint64_t>(i), 0);
+    double sum = 0.0;
+    for (int j = 0; j < pieces; ++j) sum += collision_loss{}.sample(p, hypothesis, medium, path / pieces, random);
+    out.push_back(sum);
+  }
+  std::sort(out.begin(), out.end());
+  return out;
+}
+
+double mean_of(const std::vector<double>& x) {
+  double sum = 0.0;
+  for (const double v : x) sum += v;
+  return sum / static_cast<double>(x.size());
+}
+
+double above(const std::vector<double>& sorted, double x) {
+  return static_cast<double>(sorted.end() - std::upper_bound(sorted.begin(), sorted.end(), x)) / static_cast<double>(sorted.size());
+}
+
+/// Probability that Landau's variable exceeds lambda: (1/pi) int_0^inf exp(-t ln t - lambda t) sin(pi t) / t dt (Landau, J. Phys. USSR 8 (1944) 201).
+double landau_above(double lambda) {
+  constexpr double h = 2e-3;
+  double sum = 0.5 * constants::pi;  // the integrand at t = 0
+  for (double t = h; t < 40.0; t += h) sum += std::exp(-t * std::log(t) - lambda * t) * std::sin(constants::pi * t) / t;
+  return sum * h / constants::pi;
+}
+
+}  // namespace
+
+TEST_CASE("the integral used as the oracle gives Landau's published median", "[particle_to_hit]") {
+  CHECK(landau_above(landau::median) == Approx(0.5).margin(1e-4));
+}
+
+TEST_CASE("collisions lose on average what Bethe's formula says", "[particle_to_hit]") {
+  constexpr int n = 40000;
+  for (const double path : {0.001, 0.025, 0.3, 5.0}) {
+    const auto k = ionisation_kinematics_of(150.0, muon_plus);
+    const double expected = mean_energy_loss_rate(150.0, muon_plus, materials::polystyrene).value * path;
+    const double variance = bohr_variance(landau_xi(k, muon_plus, materials::polystyrene, path), k);
+    CAPTURE(path);
+    CHECK(std::abs(mean_of(losses(150.0, muon_plus, materials::polystyrene, path, 1, n, 1)) - expected) < 5.0 * std::sqrt(variance / n));
+  }
+}
+
+TEST_CASE("thin layers follow Landau's distribution", "[particle_to_hit]") {
+  constexpr int n = 60000;
+  constexpr double path = 0.62734;
+  constexpr double p = 2000.0;  // T_max beyond 20,000 xi: Landau's limit
+  const auto k = ionisation_kinematics_of(p, muon_plus);
+  const double xi = landau_xi(k, muon_plus, materials::polystyrene, path);
+  REQUIRE(vavilov_kappa(xi, k) < 1e-4);
+  const double mode = xi * most_probable_loss_over_xi(k, materials::polystyrene, xi).value;
+  const std::vector<double> sorted = losses(p, muon_plus, materials::polystyrene, path, 1, n, 2);
+  for (const double lambda : {-1.5, -0.5, 0.5, landau::median, 3.0, 6.0, 15.0, 40.0}) {
+    const double expected = landau_above(lambda);
+    CAPTURE(lambda, expected);
+    // Five standard deviations; 2e-3 for the Gaussian sum of small transfers (skewness sqrt(0.1) / 2, smeared by the rest).
+    CHECK(std::abs(above(sorted, mode + xi * (lambda - landau::mode)) - expected) < 5.0 * std::sqrt(expected * (1.0 - expected) / n) + 2e-3);
+  }
+}
+
+TEST_CASE("thick layers approach a Gaussian of Bohr's variance", "[particle_to_hit]") {
+  constexpr int n = 10000;
+  const particle heavy{3000.0, 1, 0, "toy"};
+  constexpr double p = 1000.0;
+  constexpr double path = 4.0;
+  const auto k = ionisation_kinematics_of(p, heavy);
+  const double xi = landau_xi(k, heavy, materials::polystyrene, path);
+  REQUIRE(vavilov_kappa(xi, k) > 2.0);
+  const std::vector<double> sorted = losses(p, heavy, materials::polystyrene, path, 1, n, 3);
+  const double mean = mean_of(sorted);
+  double variance = 0.0;
+  for (const double v : sorted) variance += (v - mean) * (v - mean) / n;
+  const double expected = xi * k.largest_transfer * (1.0 - 0.5 * k.beta_squared);
+  CHECK(std::abs(variance / expected - 1.0) < 5.0 * std::sqrt(2.5 / n));  // excess kurtosis 1 / (3 kappa) at most
+}
+
+TEST_CASE("the losses of pieces of a path add up to that of the path", "[particle_to_hit]") {
+  constexpr int n = 20000;
+  const std::vector<double> one = losses(200.0, muon_plus, materials::polystyrene, 0.6, 1, n, 4);
+  const std::vector<double> five = losses(200.0, muon_plus, materials::polystyrene, 0.6, 5, n, 5);
+  double distance = 0.0;
+  for (std::size_t i = 0; i < one.size(); i += 25) distance = std::max(distance, std::abs(above(five, one[i]) - (1.0 - static_cast<double>(i) / n)));
+  // Kolmogorov and Smirnov at a chance of 1e-3: 1.95 sqrt(2 / n); 5e-3 for the two ways of dividing small from large transfers.
+  CHECK(distance < 1.95 * std::sqrt(2.0 / n) + 5e-3);
+}
+
+TEST_CASE("nothing is lost on no path or in vacuum, and never less than nothing", "[particle_to_hit]") {
+  random_stream random(6, 0, 0);
+  CHECK(collision_loss{}.sample(200.0, muon_plus, materials::polystyrene, 0.0, random) == 0.0);
+  CHECK(collision_loss{}.sample(200.0, muon_plus, materials::vacuum, 10.0, random) == 0.0);
+  for (const double path : {1e-6, 1e-4, 1e-2, 1.0})
+    for (int i = 0; i < 2000; ++i) REQUIRE(collision_loss{}.sample(120.0, muon_plus, materials::mylar, path, random) >= 0.0);
+}
+
+TEST_CASE("a fixed loss is that of its policy", "[particle_to_hit]") {
+  random_stream random(7, 0, 0);
+  CHECK(fixed_loss<>{}.sample(200.0, muon_plus, materials::polystyrene, 0.5, random) ==
+        Approx(0.5 * mean_energy_loss_rate(200.0, muon_plus, materials::polystyrene).value));
+  CHECK(fixed_loss<no_energy_loss>{}.sample(200.0, muon_plus, materials::polystyrene, 0.5, random) == 0.0);
+}
