@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: MPL-2.0
+// scifi-reconstruct: tracks in the digits of scintillating-fibre trackers, from CSV or MICE JSON to CSV.
+#include <chrono>
+#include <cmath>
+#include <exception>
+#include <filesystem>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <system_error>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <oneapi/tbb/global_control.h>
+#include <oneapi/tbb/info.h>
+#include <oneapi/tbb/task_arena.h>
+
+#include <scifi/chain/reconstruction.hpp>
+#include <scifi/core/units.hpp>
+#include <scifi/geometry/mice.hpp>
+#include <scifi/io/geometry_json.hpp>
+
+#include "reconstruct/event_pipeline.hpp"
+
+#ifndef SCIFI_VERSION
+#define SCIFI_VERSION "of unknown version"
+#endif
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct options {
+  std::string digits, geometry, output = "tracks.csv", track_points, particle = "mu";
+  double field = 3.0, min_npe = 2.0, momentum = 200.0;
+  int threads = 0;
+};
+
+/// A particle by its name; a name without a sign means the positive one, for the beam of MICE is.
+scifi::particle hypothesis_named(const std::string& name) {
+  const auto found = scifi::particle_from_name(name);
+  if (!found) throw std::invalid_argument("--particle: '" + name + "' is not known; try mu, pi, e or p");
+  const bool without_sign = name == "mu" || name == "muon" || name == "pi" || name == "pion" || name == "e";
+  return without_sign && found->charge < 0 ? scifi::charge_conjugate(*found) : *found;
+}
+
+bool same_file(const fs::path& a, const fs::path& b) {
+  std::error_code none;
+  return fs::weakly_canonical(a, none) == fs::weakly_canonical(b, none) || fs::equivalent(a, b, none);
+}
+
+void check(const options& o) {
+  const auto require = [](bool good, const char* what) {
+    if (!good) throw std::invalid_argument(what);
+  };
+  require(std::isfinite(o.field), "--field: not a finite number");
+  require(std::isfinite(o.min_npe) && o.min_npe >= 0.0, "--min-npe: not a finite number from 0 on");
+  require(std::isfinite(o.momentum) && o.momentum > 0.0, "--momentum: not a finite number above 0");
+  require(o.threads >= 0 && o.threads <= 1024, "--threads: not in 0 .. 1024");
+  for (const std::string& out : {o.output, o.track_points}) {
+    for (const std::string& in : {o.digits, o.geometry})
+      if (!out.empty() && !in.empty() && same_file(in, out)) throw std::invalid_argument(out + ": would overwrite what is read");
+  }
+  require(o.track_points.empty() || !same_file(o.output, o.track_points), "--output and --track-points: the same file");
+}
+
+void print_summary(const options& o, const totals& sum, const scifi::particle& hypothesis, int threads, double seconds) {
+  // Standard output may be where the tracks go.
+  std::FILE* const out = o.output.starts_with("/dev/") || o.track_points.starts_with("/dev/") ? stderr : stdout;
+  const auto row = [out](const char* name, long count, const std::string& remark = "") { fmt::print(out, "{:<16}{:>12}{}\n", name, count, remark); };
+  fmt::print(out, "scifi-reconstruct {}   units: mm, MeV/c, tesla\n", SCIFI_VERSION);
+  fmt::print(out, "{:<16}{}, {}, {}\n", "read", o.digits, o.geometry.empty() ? "MICE trackers as surveyed" : o.geometry,
+             o.field != 0.0 ? fmt::format("{} T, helices, mass of {}", o.field, hypothesis.name)
+                            : fmt::format("no field, straight lines at {} MeV/c, mass of {}", o.momentum, hypothesis.name));
+  row("events", sum.events);
+  row("digits", sum.digits);
+  row("clusters", sum.clusters);
+  row("space points", sum.space_points);
+  row("candidates", sum.candidates);
+  row("tracks", sum.tracks);
+  row("failures", sum.failures);
+  row("events flagged", sum.flagged,
+      fmt::format("   too many digits {}, combinations limited {}, fit failed {}", sum.too_many_digits, sum.combinations_limited, sum.fit_failed));
+  fmt::print(out, "{:<16}{:>12.3f} s, {:.0f} events/s, {} thread{}\n", "time", seconds, static_cast<double>(sum.events) / seconds, threads, threads == 1 ? "" : "s");
+  fmt::print(out, "{:<16}{}{}\n", "written", o.output, o.track_points.empty() ? "" : ", " + o.track_points);
+}
+
+/// Keeps what was reconstructed before the input went bad, and says so.
+void keep_partial(scifi::atomic_file& tracks, std::optional<scifi::atomic_file>& points, const totals& sum) {
+  if (sum.events == 0) return;
+  std::string names = tracks.keep_partial();
+  if (points) names += ", " + points->keep_partial();
+  fmt::print(stderr, "scifi-reconstruct: the {} tracks of the {} events before the mistake are kept in {}\n", sum.tracks, sum.events, names);
+}
+
+void run(const options& o) {
+  const auto start = std::chrono::steady_clock::now();
+  check(o);
+  const scifi::particle hypothesis = hypothesis_named(o.particle);
+  const scifi::detector detector = o.geometry.empty() ? scifi::mice::trackers() : scifi::read_geometry(o.geometry);
+  const scifi::reconstruction_options choice{
+      .field = o.field * scifi::units::tesla, .hypothesis = hypothesis, .min_npe = o.min_npe, .line_momentum = o.momentum};
+  const auto reconstruct = scifi::make_reconstruction(detector, choice);
+
+  event_source source(o.digits, detector);
+  scifi::atomic_file tracks(o.output);
+  std::optional<scifi::atomic_file> points;
+  if (!o.track_points.empty()) points.emplace(o.track_points);
+  tracks.write(scifi::track_columns);
+  if (points) points->write(scifi::track_point_columns);
+
+  const int threads = o.threads > 0 ? o.threads : tbb::info::default_concurrency();
+  const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
+  tbb::task_arena arena(threads);
+  progress display(source.file().size());
+  const pipeline_result result = arena.execute([&] { return run_pipeline(source, reconstruct, tracks, points, threads, display); });
+  display.clear();
+  if (result.reading_stopped) {
+    try {
+      std::rethrow_exception(result.reading_stopped);
+    } catch (const scifi::input_error&) {
+      keep_partial(tracks, points, result.sum);
+      throw;
+    }
+  }
+  // The points first: where the tracks are, everything is.
+  if (points) points->commit();
+  tracks.commit();
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  print_summary(o, result.sum, hypothesis, threads, seconds);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  constexpr int given_wrongly = 2;
+  constexpr int not_done = 3;
+  options o;
+  CLI::App app{"Reconstructs tracks from the digits of scintillating-fibre trackers. Units: mm, ns, MeV, MeV/c, tesla; tracker frame."};
+  app.add_option("DIGITS", o.digits, "digits: CSV with the columns event, tracker, station, plane, channel, npe, or MICE JSON (.json); may be gzip")->required();
+  app.add_option("--geometry", o.geometry, "geometry in JSON; the MICE trackers unless given");
+  app.add_option("--field", o.field, "uniform field along z of the tracker frame, tesla; 0: straight tracks")->capture_default_str();
+  app.add_option("--particle", o.particle, "particle whose mass the fit assumes: mu, pi, e, p")->capture_default_str();
+  app.add_option("--min-npe", o.min_npe, "least light of a digit, photo-electrons")->capture_default_str();
+  app.add_option("--momentum", o.momentum, "momentum along z assumed for straight tracks, MeV/c")->capture_default_str();
+  app.add_option("--output", o.output, "tracks, CSV")->capture_default_str();
+  app.add_option("--track-points", o.track_points, "the tracks at every plane, CSV; not written unless given");
+  app.add_option("--threads", o.threads, "number of threads; 0: all cores. The output does not depend on it")->capture_default_str();
+  app.set_version_flag("--version", SCIFI_VERSION);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& e) {
+    return app.exit(e) == 0 ? 0 : given_wrongly;
+  }
+  try {
+    run(o);
+  } catch (const scifi::input_error& e) {
+    fmt::print(stderr, "scifi-reconstruct: {}\n", e.what());
+    return given_wrongly;
+  } catch (const std::invalid_argument& e) {
+    fmt::print(stderr, "scifi-reconstruct: {}\n", e.what());
+    return given_wrongly;
+  } catch (const std::exception& e) {
+    fmt::print(stderr, "scifi-reconstruct: {}\n", e.what());
+    return not_done;
+  }
+  return 0;
+}
