@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <utility>
 #include <vector>
@@ -85,14 +86,11 @@ struct reconstruction_options {
 /// The standard chain for trackers of scintillating fibres.
 [[nodiscard]] inline auto make_reconstruction(const detector& where, const reconstruction_options& options) {
   const highland_scattering scattering;
-  // A track crosses all planes of its tracker: the typical loss is the median of the total.
-  const double planes = where.trackers.empty() ? 1.0 : [&] {
-    std::size_t count = 0;
-    for (const station& s : where.trackers.front().stations) count += s.planes.size();
-    return static_cast<double>(count);
-  }();
-  const median_energy_loss loss{planes};
-  const landau_straggling straggling{planes};
+  // A track crosses all stations of its tracker, each one layer: its typical loss is the median of the total.
+  std::size_t stations = 1;
+  for (const tracker& t : where.trackers) stations = std::max(stations, t.stations.size());
+  const median_energy_loss loss{static_cast<double>(stations)};
+  const landau_straggling straggling{static_cast<double>(stations)};
   using fitter = track_fitter<median_energy_loss, highland_scattering, landau_straggling>;
 
   track_finder_options finding;

@@ -19,8 +19,6 @@ inline constexpr int downstream = 1;  ///< TKD: the beam meets station 1 first a
   const material polystyrene = materials::polystyrene;
   const material mylar = materials::mylar;
   const double half = 0.5 * fibre.thickness();
-  // The whole plane is one layer to Highland's logarithm.
-  const double layer = fibre.mylar_thickness / mylar.radiation_length + fibre.thickness() / polystyrene.radiation_length;
   plane p;
   p.view = view;
   p.angle = angle;
@@ -29,9 +27,9 @@ inline constexpr int downstream = 1;  ///< TKD: the beam meets station 1 first a
   p.channel_width = fibre.channel_width();
   p.z_reference = z;
   p.z_measured = z + fibre.mylar_thickness + half;
-  p.below.add({mylar, fibre.mylar_thickness, layer});
-  p.below.add({polystyrene, half, layer});
-  p.above.add({polystyrene, half, layer});
+  p.below.add(whole(mylar, fibre.mylar_thickness));
+  p.below.add(whole(polystyrene, half));
+  p.above.add(whole(polystyrene, half));
   return p;
 }
 
@@ -43,6 +41,7 @@ inline constexpr int downstream = 1;  ///< TKD: the beam meets station 1 first a
   s.in_tracker.origin = origin;
   s.planes = {fibre_plane("V", 120.0 * units::degree, 214, 106.5, 0.0, fibre), fibre_plane("W", -120.0 * units::degree, 214, 106.5, step, fibre),
               fibre_plane("U", 0.0, 212, 105.5, 2.0 * step, fibre)};
+  as_one_layer(s);
   return s;
 }
 

@@ -23,4 +23,20 @@ struct station {
   }
 };
 
+/// Makes all planes of a station one layer to the logarithms of Highland's formula and of the most probable loss: a track scatters in the station
+/// as a whole before anything far away sees it (Highland's formula holds for the sum, not for the parts; PDG 2024, remark below eq. 34.16).
+inline void as_one_layer(station& s) {
+  double total = 0.0;
+  for (const plane& p : s.planes) total += radiation_lengths(p.below) + radiation_lengths(p.above);
+  const auto share = [total](const slab_stack<4>& stack) {
+    slab_stack<4> out;
+    for (const slab& slice : stack) out.add({slice.medium, slice.thickness, total});
+    return out;
+  };
+  for (plane& p : s.planes) {
+    p.below = share(p.below);
+    p.above = share(p.above);
+  }
+}
+
 }  // namespace scifi

@@ -109,6 +109,8 @@ class geometry_parser {
       const plane& before = s.planes[i - 1];
       if (s.planes[i].z_reference < before.z_measured + thickness(before.above) - rounding) at.fail("the plane begins before the one below it ends");
     }
+    // Planes given by their sheets: the station is one layer. Planes given by slabs say their layers themselves.
+    if (!planes.element(0).has("z_measured")) as_one_layer(s);
     return s;
   }
 
@@ -133,12 +135,10 @@ class geometry_parser {
     const material& sheet = media_.at("mylar");
     const material& fibres = media_.at("polystyrene");
     const double half = 0.5 * (fibres_to - fibres_from);
-    // The whole plane is one layer to Highland's logarithm.
-    const double layer = (sheet_to - sheet_from) / sheet.radiation_length + (fibres_to - fibres_from) / fibres.radiation_length;
     p.z_reference = sheet_from;
     p.z_measured = fibres_from + half;
-    p.below.add({sheet, sheet_to - sheet_from, layer}).add({fibres, half, layer});
-    p.above.add({fibres, half, layer});
+    p.below.add(whole(sheet, sheet_to - sheet_from)).add(whole(fibres, half));
+    p.above.add(whole(fibres, half));
     return p;
   }
 
