@@ -27,8 +27,8 @@ class atomic_file {
     std::error_code none;
     if (name_.empty()) fail_to_open("the name is empty");
     if (path.filename().empty() || fs::is_directory(path, none)) fail_to_open("is a folder");
-    final_ = fs::is_symlink(path, none) ? fs::weakly_canonical(path, none) : path;
-    in_place_ = name_.starts_with("/dev/") || (fs::exists(final_, none) && !fs::is_regular_file(final_, none));
+    in_place_ = name_.starts_with("/dev/") || (fs::exists(path, none) && !fs::is_regular_file(path, none));
+    final_ = !in_place_ && fs::is_symlink(path, none) ? fs::weakly_canonical(path, none) : path;
     if (!in_place_ && fs::exists(final_, none) && ::access(final_.c_str(), W_OK) != 0) fail_to_open(std::strerror(errno));
     temporary_ = in_place_ ? final_ : fs::path(final_.string() + ".partial");
     constexpr mode_t read_write_for_all = 0666;  // less what the umask takes away

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 #pragma once
 
+#include <algorithm>
 #include <charconv>
 #include <concepts>
 #include <cstddef>
@@ -17,32 +18,34 @@
 
 namespace scifi {
 
+namespace detail {
+
+/// Position of the comma that ends the field at `start`, or the end of the line; commas between double quotes are passed over.
+[[nodiscard]] inline std::size_t end_of_quoted_field(std::string_view line, std::size_t start) {
+  bool inside = false;
+  for (std::size_t i = start; i < line.size(); ++i) {
+    if (line[i] == '"') inside = !inside;
+    if (line[i] == ',' && !inside) return i;
+  }
+  return line.size();
+}
+
+}  // namespace detail
+
 /// Splits a line at its commas into `out`: blanks around a field and double quotes around its text are dropped. A comma between quotes
 /// belongs to the field; a doubled quote inside stays doubled; a quote that is not closed keeps the rest of the line.
 inline void split_fields(std::string_view line, std::vector<std::string_view>& out) {
-  constexpr std::string_view blanks = " \t";
+  const auto blank = [](char c) { return c == ' ' || c == '\t'; };
+  const bool quotes = line.find('"') != std::string_view::npos;
   out.clear();
-  std::size_t start = 0;
-  while (true) {
-    const std::size_t text = line.find_first_not_of(blanks, start);
-    std::size_t from = start;
-    if (text != std::string_view::npos && line[text] == '"') {
-      const std::size_t closing = line.find('"', text + 1);
-      from = closing == std::string_view::npos ? line.size() : closing;
-      // a doubled quote does not close
-      while (from + 1 < line.size() && line[from + 1] == '"') {
-        const std::size_t next = line.find('"', from + 2);
-        from = next == std::string_view::npos ? line.size() : next;
-      }
-    }
-    const std::size_t comma = line.find(',', from);
-    std::string_view field = line.substr(start, comma == std::string_view::npos ? std::string_view::npos : comma - start);
-    while (!field.empty() && blanks.find(field.front()) != std::string_view::npos) field.remove_prefix(1);
-    while (!field.empty() && blanks.find(field.back()) != std::string_view::npos) field.remove_suffix(1);
-    if (field.size() >= 2 && field.front() == '"' && field.back() == '"') field = field.substr(1, field.size() - 2);
+  for (std::size_t start = 0; start <= line.size();) {
+    const std::size_t end = quotes ? detail::end_of_quoted_field(line, start) : std::min(line.find(',', start), line.size());
+    std::string_view field(line.data() + start, end - start);
+    while (!field.empty() && blank(field.front())) field.remove_prefix(1);
+    while (!field.empty() && blank(field.back())) field.remove_suffix(1);
+    if (quotes && field.size() >= 2 && field.front() == '"' && field.back() == '"') field = field.substr(1, field.size() - 2);
     out.push_back(field);
-    if (comma == std::string_view::npos) return;
-    start = comma + 1;
+    start = end + 1;
   }
 }
 
