@@ -23,6 +23,7 @@ import matplotlib.pyplot as plt  # noqa: E402  (the backend is chosen first)
 import numpy as np  # noqa: E402
 from matplotlib.ticker import LogLocator, NullFormatter, ScalarFormatter  # noqa: E402
 
+TESLA = 0.299792458  # (MeV/c)/(e mm)
 FIDUCIAL_RADIUS = 150.0  # mm
 MATCH_RADIUS = 10.0  # mm
 PT_EDGES = np.array([0.0, 5.0, 10.0, 20.0, 30.0, 40.0, 50.0, 70.0, 90.0])  # MeV/c
@@ -238,11 +239,59 @@ def draw(by_tracker, folder):
     save(figure, folder, "goodness_of_fit")
 
 
+def helix(point, z, field):
+    """x and y at z of the helix through a fitted point; field in (MeV/c)/(e mm)."""
+    length, k = z - point["z"], field * point["q_over_pz"]
+    sine, cosine = (np.sin(k * length) / k, (1 - np.cos(k * length)) / k) if abs(k) > 1e-9 else (length, 0.5 * k * length**2)
+    return (point["x"] + point["tx"] * sine + point["ty"] * cosine, point["y"] + point["ty"] * sine - point["tx"] * cosine)
+
+
+def draw_event(truth_path, points_path, field, folder):
+    """The event with a track in each tracker that shows their bending best: true crossings, and the fit as a helix from plane to plane."""
+    tracks = collections.defaultdict(lambda: collections.defaultdict(list))
+    for row in rows(points_path):
+        point = {"z": float(row["z_mm"]), "x": float(row["x_mm"]), "y": float(row["y_mm"]),
+                 "tx": float(row["tx"]), "ty": float(row["ty"]), "q_over_pz": float(row["q_over_pz"])}
+        tracks[int(row["event"])][int(row["tracker"]), int(row["track"])].append(point)
+    complete = [event for event, found in tracks.items() if {tracker for tracker, _ in found} == set(TRACKERS)]
+    if not complete:
+        return
+    event = max(complete, key=lambda e: min(math.hypot(points[0]["tx"], points[0]["ty"]) for points in tracks[e].values()))
+    true = collections.defaultdict(list)
+    for row in rows(truth_path):
+        if int(row["event"]) == event:
+            true[int(row["tracker"])].append((float(row["z_mm"]), float(row["x_mm"]), float(row["y_mm"])))
+
+    figure, axes = plt.subplots(2, 3, figsize=(11, 6), layout="constrained", width_ratios=[2, 2, 1.2])
+    figure.suptitle(f"Event {event}: true crossings (circles) and fitted tracks (lines)")
+    for line, (tracker, (name, colour, _)) in zip(axes, TRACKERS.items()):
+        crossings = np.array(true[tracker])
+        views = [(0, 1, "z", "x"), (0, 2, "z", "y"), (1, 2, "x", "y")]
+        for axis, (across, up, label_across, label_up) in zip(line, views):
+            axis.plot(crossings[:, across], crossings[:, up], "o", markerfacecolor="none", color=REFERENCE_COLOUR, markersize=6)
+            for key, points in tracks[event].items():
+                if key[0] != tracker:
+                    continue
+                points = sorted(points, key=lambda p: p["z"])
+                for start, end in zip(points, points[1:]):
+                    z = np.linspace(start["z"], end["z"], 25)
+                    drawn = (z, *helix(start, z, field))
+                    axis.plot(drawn[across], drawn[up], "-", color=colour, linewidth=1.2)
+            axis.set_xlabel(f"${label_across}$ [mm]")
+            axis.set_ylabel(f"${label_up}$ [mm]")
+            axis.grid(alpha=0.3)
+        line[0].set_title(name)
+        line[2].set_aspect("equal", adjustable="datalim")
+    save(figure, folder, "event")
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("truth", help="CSV of plane crossings written by scifi-simulate")
     parser.add_argument("tracks", help="CSV of tracks written by scifi-reconstruct")
     parser.add_argument("folder", type=pathlib.Path, help="where the pictures go")
+    parser.add_argument("--points", help="CSV of fitted track points, for the picture of an event")
+    parser.add_argument("--field", type=float, default=3.0, help="tesla, for the picture of an event")
     parser.add_argument("--least-efficiency", type=float, default=0.0, help="fail below this share of found tracks")
     options = parser.parse_args()
 
@@ -262,6 +311,8 @@ def main():
     print()
     options.folder.mkdir(parents=True, exist_ok=True)
     draw(by_tracker, options.folder)
+    if options.points:
+        draw_event(options.truth, options.points, options.field * TESLA, options.folder)
     return 0
 
 
