@@ -4,6 +4,7 @@
 
 Usage: reconstruct_cli_test.py BIN
 BIN is the folder of the programs. Needs the standard library alone. Exit status 77: the program was not built.
+SCIFI_SHARED_DATA in the environment names the folder of external data; tests that need it are skipped without.
 """
 
 import csv
@@ -182,6 +183,23 @@ class Reconstruct(unittest.TestCase):
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assertIn("digits                 10000", result.stdout)
         self.assertNotIn("events flagged             0", result.stdout)
+
+    @unittest.skipUnless(os.environ.get("SCIFI_SHARED_DATA"), "needs external data")
+    def test_the_experiments_own_simulation_is_reconstructed_as_by_its_own_software(self):
+        """pt and pz, MeV/c, that the software of MICE fits to these digits (event, tracker); its field is 4 T in both trackers."""
+        published = {(2, 0): (50.4, 172.4), (3, 0): (57.7, 174.1), (4, 0): (33.9, 184.1), (0, 1): (8.9, 201.4), (1, 1): (15.6, 186.6),
+                     (2, 1): (13.0, 181.3), (3, 1): (51.6, 175.4), (4, 1): (62.3, 177.9)}
+        digits = os.path.abspath(os.path.join(os.environ["SCIFI_SHARED_DATA"], "mice", "test_helical_digits.json"))
+        result = self.run_on(None, "--field", "4", name=digits)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertIn("space points              50", result.stdout)
+        found = {(int(r["event"]), int(r["tracker"])): r for r in self.rows()}
+        self.assertEqual(len(found), 10)
+        for key, (pt, pz) in published.items():
+            row = found[key]
+            # Two fits to the same digits: they differ by less than the error of one of them.
+            self.assertLess(abs(math.hypot(float(row["px_MeV"]), float(row["py_MeV"])) - pt), 1.0, key)
+            self.assertLess(abs(abs(float(row["pz_MeV"])) - pz), 1.0 + float(row["sigma_pz_MeV"]), key)
 
     # What is refused
 

@@ -101,8 +101,10 @@ class geometry_parser {
     const json_field planes = (from.has("planes") ? from : root_).at("planes");
     if (planes.size() == 0) planes.fail("names no plane");
     if (planes.size() > max_planes_per_station) planes.fail("more than " + std::to_string(max_planes_per_station) + " planes in a station");
+    bool given_by_slabs = false;
     for (std::size_t i = 0; i < planes.size(); ++i) {
       const json_field at = planes.element(i);
+      given_by_slabs |= at.has("z_measured");
       if (at.at("plane").whole_number() != static_cast<int>(i)) at.at("plane").fail("is not " + std::to_string(i) + ": planes are numbered from 0 in order of growing z");
       s.planes.push_back(read_plane(at));
       if (i == 0) continue;
@@ -110,7 +112,7 @@ class geometry_parser {
       if (s.planes[i].z_reference < before.z_measured + thickness(before.above) - rounding) at.fail("the plane begins before the one below it ends");
     }
     // Planes given by their sheets: the station is one layer. Planes given by slabs say their layers themselves.
-    if (!planes.element(0).has("z_measured")) as_one_layer(s);
+    if (!given_by_slabs) as_one_layer(s);
     return s;
   }
 

@@ -57,8 +57,28 @@ TEST_CASE("a geometry document is read by the rules of a fibre plane", "[io]") {
   CHECK(p.below[0].medium.name == "mylar");
   CHECK(p.below[1].thickness == Approx(0.3));
   CHECK(p.above[0].thickness == Approx(0.3));
-  const double layer = 0.1 / scifi::materials::mylar.radiation_length + 0.6 / scifi::materials::polystyrene.radiation_length;
+  // The two planes of the station are one layer.
+  const double layer = 2.0 * (0.1 / scifi::materials::mylar.radiation_length + 0.6 / scifi::materials::polystyrene.radiation_length);
   for (const scifi::slab& s : {p.below[0], p.below[1], p.above[0]}) CHECK(s.layer_radiation_lengths == Approx(layer));
+}
+
+TEST_CASE("a plane may be given by its slabs, each with a layer of its own", "[io]") {
+  json document = one_tracker();
+  json& p = document["planes"][1];
+  p.erase("z_mylar");
+  p.erase("z_fibres");
+  p["z_reference"] = 1.0;
+  p["z_measured"] = 1.5;
+  p["below"] = {{{"material", "mylar"}, {"thickness", 0.5}, {"layer_radiation_lengths", 0.25}}};
+  p["above"] = {{{"material", "helium"}, {"thickness", 0.1}}, {{"material", "mylar"}, {"thickness", 0.2}}};
+  const detector d = scifi::geometry_from_json(document, "f.json");
+  const scifi::plane& read = d.trackers[0].stations[0].planes[1];
+  CHECK(read.z_measured == 1.5);
+  REQUIRE(read.below.size() == 1);
+  REQUIRE(read.above.size() == 2);
+  CHECK(read.below[0].layer_radiation_lengths == 0.25);
+  CHECK(read.above[0].medium.name == "helium");
+  CHECK(read.above[1].layer_radiation_lengths == Approx(0.2 / scifi::materials::mylar.radiation_length));
 }
 
 TEST_CASE("materials of the file are used", "[io]") {
