@@ -17,7 +17,7 @@ class cholesky {
  public:
   explicit cholesky(const matrix<Scalar, N, N>& a) {
     using std::sqrt;
-    const Scalar threshold(static_cast<double>(N) * static_cast<double>(Eigen::NumTraits<Scalar>::epsilon()));
+    const Scalar threshold = Scalar(static_cast<double>(N) * static_cast<double>(Eigen::NumTraits<Scalar>::epsilon()));
     Scalar margin(1.0);
     for (int j = 0; j < N; ++j) {
       Scalar pivot(a(j, j));
@@ -82,7 +82,7 @@ class cholesky {
 template <class Scalar, int N>
 [[nodiscard]] matrix<Scalar, N, N> semidefinite_factor(const matrix<Scalar, N, N>& a) {
   using std::sqrt;
-  const Scalar threshold(static_cast<double>(N) * static_cast<double>(Eigen::NumTraits<Scalar>::epsilon()));
+  const Scalar threshold = Scalar(static_cast<double>(N) * static_cast<double>(Eigen::NumTraits<Scalar>::epsilon()));
   matrix<Scalar, N, N> lower = matrix<Scalar, N, N>::Zero();
   for (int j = 0; j < N; ++j) {
     Scalar pivot(a(j, j));

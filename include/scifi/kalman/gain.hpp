@@ -30,7 +30,7 @@ struct gain {
 /// Gain of a measurement for an estimate of covariance P: by division where M = 1, by Cholesky decomposition of S otherwise.
 template <class Scalar, int N, int M>
 [[nodiscard]] gain<Scalar, N, M> optimal_gain(const matrix<Scalar, N, N>& p, const innovation<Scalar, N, M>& seen) {
-  const Scalar nan(std::numeric_limits<double>::quiet_NaN());
+  const Scalar nan = Scalar(std::numeric_limits<double>::quiet_NaN());
   gain<Scalar, N, M> out;
   out.cross.noalias() = p.lazyProduct(seen.jacobian.transpose());
   if constexpr (M == 1) {

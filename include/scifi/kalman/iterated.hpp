@@ -22,7 +22,7 @@ struct iterated {
       return base(prior, m);
     } else {
       vector<Scalar, N> about = prior.mean;
-      const Scalar tolerance2(tolerance * tolerance);
+      const Scalar tolerance2 = Scalar(tolerance * tolerance);
       for (int i = 1;; ++i) {
         updated<Scalar, N, max_measurement_dimension<Measurement>> out = base(prior, linearise(m, about));
         if (!out.status.ok()) return out;

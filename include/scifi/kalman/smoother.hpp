@@ -2,7 +2,9 @@
 #pragma once
 
 #include <cstddef>
+#include <iterator>
 #include <span>
+#include <type_traits>
 
 #include <scifi/kalman/cholesky.hpp>
 #include <scifi/kalman/node.hpp>
@@ -52,7 +54,7 @@ template <class Scalar, int N, int MaxM>
 /// The same for any contiguous range of nodes.
 template <class Nodes>
 [[nodiscard]] status smooth(Nodes& nodes) {
-  return smooth(std::span(nodes));
+  return smooth(std::span<std::remove_reference_t<decltype(*std::data(nodes))>>(nodes));
 }
 
 }  // namespace scifi::kalman

@@ -48,7 +48,7 @@ template <class Scalar, class Update, bool Factored = false>
 findings drive(const Update& update, long steps) {
   using std::pow;
   const Scalar ratio = pow(std::numeric_limits<Scalar>::epsilon(), Scalar(-1.25));
-  const Scalar variance(1e-4);
+  const Scalar variance = Scalar(1e-4);
   const scifi::kalman::filter filter{chain<Scalar>{}, kicks<Scalar>{variance * ratio}, update};
   scifi::kalman::estimate<Scalar, 3> start{scifi::vector<Scalar, 3>::Zero(), scifi::matrix<Scalar, 3, 3>::Identity()};
   auto current = [&] {
