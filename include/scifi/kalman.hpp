@@ -12,6 +12,7 @@
 #include <scifi/kalman/node.hpp>
 #include <scifi/kalman/node_residual.hpp>
 #include <scifi/kalman/plain.hpp>
+#include <scifi/kalman/relinearised.hpp>
 #include <scifi/kalman/residual.hpp>
 #include <scifi/kalman/site.hpp>
 #include <scifi/kalman/smoother.hpp>

@@ -2,11 +2,32 @@
 #pragma once
 
 #include <cstddef>
+#include <iterator>
 
 #include <scifi/kalman/filter.hpp>
 #include <scifi/kalman/smoother.hpp>
 
 namespace scifi::kalman {
+
+namespace detail {
+
+/// The state at the start of the first step, smoothed: that of the first site where there is no step to take.
+template <class Scalar, int N, int MaxM, class Step>
+[[nodiscard]] status smooth_start(const estimate<Scalar, N>& start, const node<Scalar, N, MaxM>& first, const Step& step, vector<Scalar, N>& smoothed) {
+  if constexpr (is_optional<Step>) {
+    if (!step) {
+      smoothed = first.smoothed.mean;
+      return {step_kind::smooth, reason::none};
+    }
+  }
+  node<Scalar, N, MaxM> begin;
+  begin.filtered = start;
+  const status s = smooth_one(begin, first);
+  if (s.ok()) smoothed = begin.smoothed.mean;
+  return s;
+}
+
+}  // namespace detail
 
 /// Filters and smooths several times, each pass linearised along the smoothed states of the one before: the Gauss-Newton iteration for the whole
 /// track, iterated extended Kalman smoother (Bell, SIAM J. Optim. 4 (1994) 626). The first pass is linearised along the flight of `seed`.
@@ -24,8 +45,9 @@ template <class Filter, class Scalar, int N, class Sites, class Nodes, class Ref
   }
   run_result<Scalar> result;
   for (int pass = 0; pass < passes; ++pass) {
-    if (pass > 0) {
-      references[0] = nodes[0].smoothed.mean;
+    if (pass > 0 && k > 0) {
+      result.status = detail::smooth_start(start, nodes[0], std::begin(sites)->step, references[0]);
+      if (!result.status.ok()) return result;
       for (std::size_t i = 0; i < k; ++i) references[i + 1] = nodes[i].smoothed.mean;
     }
     result = filter.run(start, sites, nodes, references);
