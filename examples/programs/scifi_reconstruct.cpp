@@ -9,11 +9,11 @@
 #include <string>
 #include <system_error>
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/info.h>
 #include <oneapi/tbb/task_arena.h>
+#include <CLI/CLI.hpp>
 
 #include <scifi/chain/reconstruction.hpp>
 #include <scifi/core/units.hpp>
@@ -81,7 +81,8 @@ void print_summary(const options& o, const totals& sum, const scifi::particle& h
   row("failures", sum.failures);
   row("events flagged", sum.flagged,
       fmt::format("   too many digits {}, combinations limited {}, fit failed {}", sum.too_many_digits, sum.combinations_limited, sum.fit_failed));
-  fmt::print(out, "{:<16}{:>12.3f} s, {:.0f} events/s, {} thread{}\n", "time", seconds, static_cast<double>(sum.events) / seconds, threads, threads == 1 ? "" : "s");
+  fmt::print(out, "{:<16}{:>12.3f} s, {:.0f} events/s, {} thread{}\n", "time", seconds, static_cast<double>(sum.events) / seconds, threads,
+             threads == 1 ? "" : "s");
   fmt::print(out, "{:<16}{}{}\n", "written", o.output, o.track_points.empty() ? "" : ", " + o.track_points);
 }
 
@@ -137,7 +138,8 @@ int main(int argc, char** argv) {
   constexpr int not_done = 3;
   options o;
   CLI::App app{"Reconstructs tracks from the digits of scintillating-fibre trackers. Units: mm, ns, MeV, MeV/c, tesla; tracker frame."};
-  app.add_option("DIGITS", o.digits, "digits: CSV with the columns event, tracker, station, plane, channel, npe, or MICE JSON (.json); may be gzip")->required();
+  app.add_option("DIGITS", o.digits, "digits: CSV with the columns event, tracker, station, plane, channel, npe, or MICE JSON (.json); may be gzip")
+      ->required();
   app.add_option("--geometry", o.geometry, "geometry in JSON; the MICE trackers unless given");
   app.add_option("--field", o.field, "uniform field along z of the tracker frame, tesla; 0: straight tracks")->capture_default_str();
   app.add_option("--particle", o.particle, "particle whose mass the fit assumes: mu, pi, e, p")->capture_default_str();

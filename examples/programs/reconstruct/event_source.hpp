@@ -15,10 +15,8 @@ class event_source {
  public:
   event_source(const std::filesystem::path& path, const scifi::detector& detector) {
     const std::string name = path.filename().string();
-    if (name.ends_with(".json") || name.ends_with(".json.gz"))
-      reader_.emplace<scifi::mice_json_reader>(path, detector);
-    else
-      reader_.emplace<scifi::digit_reader>(path, detector);
+    if (name.ends_with(".json") || name.ends_with(".json.gz")) reader_.emplace<scifi::mice_json_reader>(path, detector);
+    else reader_.emplace<scifi::digit_reader>(path, detector);
   }
 
   /// The next event; false at the end. Throws scifi::input_error.

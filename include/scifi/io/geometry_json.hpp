@@ -36,7 +36,8 @@ class geometry_parser {
     if (!root.has("materials")) return;
     const json_field materials = root.at("materials");
     if (!materials.value().is_object()) materials.fail("is not an object");
-    for (const auto& member : materials.value().items()) media_.insert_or_assign(member.key(), material_from_json(materials.at(member.key().c_str()), member.key()));
+    for (const auto& member : materials.value().items())
+      media_.insert_or_assign(member.key(), material_from_json(materials.at(member.key().c_str()), member.key()));
   }
 
   [[nodiscard]] detector read() const {
@@ -105,7 +106,8 @@ class geometry_parser {
     for (std::size_t i = 0; i < planes.size(); ++i) {
       const json_field at = planes.element(i);
       given_by_slabs |= at.has("z_measured");
-      if (at.at("plane").whole_number() != static_cast<int>(i)) at.at("plane").fail("is not " + std::to_string(i) + ": planes are numbered from 0 in order of growing z");
+      if (at.at("plane").whole_number() != static_cast<int>(i))
+        at.at("plane").fail("is not " + std::to_string(i) + ": planes are numbered from 0 in order of growing z");
       s.planes.push_back(read_plane(at));
       if (i == 0) continue;
       const plane& before = s.planes[i - 1];
@@ -128,7 +130,8 @@ class geometry_parser {
       p.z_measured = from.at("z_measured").number();
       p.below = read_stack(from.at("below"));
       p.above = read_stack(from.at("above"));
-      if (std::abs(p.z_reference + thickness(p.below) - p.z_measured) > rounding) from.at("below").fail("its thicknesses do not reach from z_reference to z_measured");
+      if (std::abs(p.z_reference + thickness(p.below) - p.z_measured) > rounding)
+        from.at("below").fail("its thicknesses do not reach from z_reference to z_measured");
       return p;
     }
     const auto [sheet_from, sheet_to] = interval(from.at("z_mylar"));
@@ -168,7 +171,7 @@ class geometry_parser {
     return out;
   }
 
-  static constexpr double rounding = 1.0e-6;        // mm
+  static constexpr double rounding = 1.0e-6;       // mm
   static constexpr int most_channels = 1'000'000;  // a typing error, not a detector
   json_field root_;
   std::map<std::string, material, std::less<>> media_;

@@ -14,11 +14,7 @@ class input_error : public std::runtime_error {
  public:
   /// `line` counts from 1, 0 when there is none; `field` is a column of a table or a path in a JSON document, or empty.
   input_error(std::string file, long line, std::string field, std::string reason)
-      : std::runtime_error(sentence(file, line, field, reason)),
-        file_(std::move(file)),
-        field_(std::move(field)),
-        reason_(std::move(reason)),
-        line_(line) {}
+      : std::runtime_error(sentence(file, line, field, reason)), file_(std::move(file)), field_(std::move(field)), reason_(std::move(reason)), line_(line) {}
 
   [[nodiscard]] const std::string& file() const { return file_; }
   [[nodiscard]] long line() const { return line_; }

@@ -36,13 +36,13 @@ namespace scifi {
     int z;
     double a;
   };
-  static constexpr std::array elements{
-      element{"H", 1, 1.008},   element{"He", 2, 4.0026}, element{"Li", 3, 6.94},    element{"Be", 4, 9.0122}, element{"B", 5, 10.81},
-      element{"C", 6, 12.011},  element{"N", 7, 14.007},  element{"O", 8, 15.999},   element{"F", 9, 18.998},  element{"Ne", 10, 20.180},
-      element{"Na", 11, 22.990}, element{"Mg", 12, 24.305}, element{"Al", 13, 26.982}, element{"Si", 14, 28.085}, element{"P", 15, 30.974},
-      element{"S", 16, 32.06},  element{"Cl", 17, 35.45}, element{"Ar", 18, 39.95},  element{"Ca", 20, 40.078}, element{"Ti", 22, 47.867},
-      element{"Fe", 26, 55.845}, element{"Ni", 28, 58.693}, element{"Cu", 29, 63.546}, element{"Ge", 32, 72.630}, element{"Xe", 54, 131.29},
-      element{"W", 74, 183.84}, element{"Pb", 82, 207.2}};
+  static constexpr std::array elements{element{"H", 1, 1.008},    element{"He", 2, 4.0026},  element{"Li", 3, 6.94},    element{"Be", 4, 9.0122},
+                                       element{"B", 5, 10.81},    element{"C", 6, 12.011},   element{"N", 7, 14.007},   element{"O", 8, 15.999},
+                                       element{"F", 9, 18.998},   element{"Ne", 10, 20.180}, element{"Na", 11, 22.990}, element{"Mg", 12, 24.305},
+                                       element{"Al", 13, 26.982}, element{"Si", 14, 28.085}, element{"P", 15, 30.974},  element{"S", 16, 32.06},
+                                       element{"Cl", 17, 35.45},  element{"Ar", 18, 39.95},  element{"Ca", 20, 40.078}, element{"Ti", 22, 47.867},
+                                       element{"Fe", 26, 55.845}, element{"Ni", 28, 58.693}, element{"Cu", 29, 63.546}, element{"Ge", 32, 72.630},
+                                       element{"Xe", 54, 131.29}, element{"W", 74, 183.84},  element{"Pb", 82, 207.2}};
   double z = 0.0;
   double a = 0.0;
   while (!formula.empty()) {
@@ -124,8 +124,7 @@ namespace scifi {
   }
   if (from.has("density_effect")) {
     const json_field s = from.at("density_effect");
-    m.density_effect = {s.at("a").number(),  s.at("m").number(), s.at("x0").number(),
-                        s.at("x1").number(), s.at("c").number(), s.at("delta0").number()};
+    m.density_effect = {s.at("a").number(), s.at("m").number(), s.at("x0").number(), s.at("x1").number(), s.at("c").number(), s.at("delta0").number()};
   } else if (!known) {
     m.density_effect = sternheimer_peierls(m.mean_excitation_energy, m.density, m.z_over_a);
   } else if (m.density > 0.0 && known->density > 0.0) {

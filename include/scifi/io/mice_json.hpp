@@ -67,8 +67,7 @@ class mice_json_reader {
   }
 
   void add(const json_field& from, event& out) {
-    const digit d{{from.at("tracker").whole_number(), from.at("station").whole_number(), from.at("plane").whole_number(),
-                   from.at("channel").whole_number()},
+    const digit d{{from.at("tracker").whole_number(), from.at("station").whole_number(), from.at("plane").whole_number(), from.at("channel").whole_number()},
                   from.at("npe").number()};
     if (const auto fault = check_.fault_of(d, position_++)) from.at(fault->field).fail(fault->reason);
     out.digits.push_back(d);

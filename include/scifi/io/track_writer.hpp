@@ -59,10 +59,10 @@ class csv_row {
 };
 
 inline constexpr int mm_decimals = 5;
-inline constexpr int momentum_decimals = 5;      // MeV/c
+inline constexpr int momentum_decimals = 5;  // MeV/c
 inline constexpr int slope_decimals = 8;
-inline constexpr int curvature_decimals = 11;    // q/pz, e/(MeV/c)
-inline constexpr int statistic_decimals = 5;     // chi2, pull
+inline constexpr int curvature_decimals = 11;  // q/pz, e/(MeV/c)
+inline constexpr int statistic_decimals = 5;   // chi2, pull
 inline constexpr int probability_decimals = 7;
 
 }  // namespace detail

@@ -53,7 +53,8 @@ TEST_CASE("a table with a header alone has no events", "[io]") {
 
 TEST_CASE("the column order of the file does not matter", "[io]") {
   const temporary_folder folder;
-  digit_reader reader(folder.file("a.csv", "\xEF\xBB\xBF\"npe\",\"channel\",\"plane\",\"station\",\"tracker\",\"event\"\r\n5.5,10,1,2,1,99\r\n\r\n"), scifi::mice::trackers());
+  digit_reader reader(folder.file("a.csv", "\xEF\xBB\xBF\"npe\",\"channel\",\"plane\",\"station\",\"tracker\",\"event\"\r\n5.5,10,1,2,1,99\r\n\r\n"),
+                      scifi::mice::trackers());
   event e;
   REQUIRE(reader.read(e));
   CHECK(e.number == 99);

@@ -102,8 +102,14 @@ TEST_CASE("a wrong geometry is refused with file, field and reason", "[io]") {
       {[](json& d) { d["version"] = 2; }, "f.json: version: version 2 is newer than version 1, the newest that can be read"},
       {[](json& d) { d["version"] = 0; }, "f.json: version: 0 is outside 1 .. 2147483647"},
       {[](json& d) { d["version"] = "1"; }, "f.json: version: '\"1\"' is not a number"},
-      {[](json& d) { d["units"] = {{"length", "cm"}}; }, "f.json: units.length: 'cm' is not 'mm'"},
-      {[](json& d) { d["units"] = {{"angle", "rad"}}; }, "f.json: units.angle: 'rad' is not 'degree'"},
+      {[](json& d) {
+         d["units"] = {{"length", "cm"}};
+       },
+       "f.json: units.length: 'cm' is not 'mm'"},
+      {[](json& d) {
+         d["units"] = {{"angle", "rad"}};
+       },
+       "f.json: units.angle: 'rad' is not 'degree'"},
       {[](json& d) { d["materials"] = 3; }, "f.json: materials: is not an object"},
       {[](json& d) { d["materials"]["mylar"]["radiation_length"] = -1; }, "f.json: materials.mylar.radiation_length: -1 is not above zero"},
       {[](json& d) { d["materials"]["foam"] = json::object(); }, "f.json: materials.foam.density_g_cm3: is missing"},
@@ -117,7 +123,10 @@ TEST_CASE("a wrong geometry is refused with file, field and reason", "[io]") {
       {[](json& d) { d["trackers"][0]["stations"] = json::array(); }, "f.json: trackers[0].stations: names no station"},
       {[](json& d) { d["trackers"][0]["stations"] = json::array_t(17); }, "f.json: trackers[0].stations: more than 16 stations"},
       {[](json& d) { d["trackers"][0]["stations"][1]["station"] = 1; }, "f.json: trackers[0].stations[1].station: station numbers do not grow"},
-      {[](json& d) { d["trackers"][0]["stations"][0]["position"] = {0, 0}; }, "f.json: trackers[0].stations[0].position: is not three numbers"},
+      {[](json& d) {
+         d["trackers"][0]["stations"][0]["position"] = {0, 0};
+       },
+       "f.json: trackers[0].stations[0].position: is not three numbers"},
       {[](json& d) { d["trackers"][0]["stations"][0]["position"][1] = "x"; }, "f.json: trackers[0].stations[0].position[1]: '\"x\"' is not a number"},
       {[](json& d) { d["trackers"][0]["stations"][1]["position"][2] = 1.0; },
        "f.json: trackers[0].stations[1].position: the station does not lie behind the one before it in z"},
@@ -129,9 +138,15 @@ TEST_CASE("a wrong geometry is refused with file, field and reason", "[io]") {
       {[](json& d) { d["planes"][0]["channels"] = 0; }, "f.json: planes[0].channels: 0 is outside 1 .. 1000000"},
       {[](json& d) { d["planes"][0]["channels"] = 10.5; }, "f.json: planes[0].channels: 10.5 is not a whole number"},
       {[](json& d) { d["planes"][0].erase("angle"); }, "f.json: planes[0].angle: is missing"},
-      {[](json& d) { d["planes"][0]["z_mylar"] = {0.1, 0.0}; }, "f.json: planes[0].z_mylar: does not grow"},
+      {[](json& d) {
+         d["planes"][0]["z_mylar"] = {0.1, 0.0};
+       },
+       "f.json: planes[0].z_mylar: does not grow"},
       {[](json& d) { d["planes"][0]["z_mylar"] = {0.1}; }, "f.json: planes[0].z_mylar: is not two numbers"},
-      {[](json& d) { d["planes"][0]["z_fibres"] = {0.2, 0.7}; }, "f.json: planes[0].z_fibres: the fibres do not begin where the mylar ends"},
+      {[](json& d) {
+         d["planes"][0]["z_fibres"] = {0.2, 0.7};
+       },
+       "f.json: planes[0].z_fibres: the fibres do not begin where the mylar ends"},
       {[](json& d) {
          d["planes"][1]["z_mylar"] = {0.5, 0.6};
          d["planes"][1]["z_fibres"] = {0.6, 1.2};
@@ -163,7 +178,8 @@ TEST_CASE("a geometry file that is not there or not JSON is refused", "[io]") {
 }
 
 TEST_CASE("fibres are as the file says, and as in MICE where it says nothing", "[io]") {
-  const scifi::fibre_doublet f = scifi::fibre_from_json(json::parse(R"({"fibre": {"diameter": 0.5, "core_diameter": 0.45, "fibres_per_channel": 3}})"), "f.json");
+  const scifi::fibre_doublet f =
+      scifi::fibre_from_json(json::parse(R"({"fibre": {"diameter": 0.5, "core_diameter": 0.45, "fibres_per_channel": 3}})"), "f.json");
   CHECK(f.diameter == 0.5);
   CHECK(f.core_diameter == 0.45);
   CHECK(f.fibres_per_channel == 3);

@@ -38,7 +38,11 @@ TEST_CASE("lines end with LF or CR LF and the last end may be missing", "[io]") 
 }
 
 TEST_CASE("a byte order mark is dropped at the start of the file and nowhere else", "[io]") {
-  CHECK(lines_of_text("\xEF\xBB\xBF" "a\n\xEF\xBB\xBF" "b\n") == std::vector<std::string>{"a", "\xEF\xBB\xBF" "b"});
+  CHECK(lines_of_text("\xEF\xBB\xBF"
+                      "a\n\xEF\xBB\xBF"
+                      "b\n") == std::vector<std::string>{"a",
+                                                         "\xEF\xBB\xBF"
+                                                         "b"});
 }
 
 TEST_CASE("lines are whole across the borders of blocks, packed or not, and are counted", "[io]") {

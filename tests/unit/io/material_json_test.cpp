@@ -86,7 +86,8 @@ TEST_CASE("the estimated density effect reproduces the stopping power of measure
 
 TEST_CASE("parameters given in the file are taken as they are, and null is an infinite radiation length", "[io]") {
   const material m = from_text(R"({"z_over_a": 0.5, "density_g_cm3": 0.0, "radiation_length": null, "mean_excitation_energy_eV": 10,
-    "density_effect": {"a": 1, "m": 2, "x0": 3, "x1": 4, "c": 5, "delta0": 6}})", "nothing");
+    "density_effect": {"a": 1, "m": 2, "x0": 3, "x1": 4, "c": 5, "delta0": 6}})",
+                               "nothing");
   CHECK(std::isinf(m.radiation_length));
   CHECK(m.density_effect.a == 1.0);
   CHECK(m.density_effect.delta0 == 6.0);

@@ -17,15 +17,16 @@ using scifi::input_error;
 using scifi::mice_json_reader;
 using namespace scifi::test;
 
-const std::string job = R"({"maus_event_type": "JobHeader"})" "\n";
+const std::string job = R"({"maus_event_type": "JobHeader"})"
+                        "\n";
 
 std::string spill(const std::string& digits) {
   return R"({"maus_event_type": "Spill", "spill_number": 4, "recon_events": [{"sci_fi_event": {"digits": [)" + digits + "]}}]}\n";
 }
 
 std::string digit(const char* tracker, const char* station, const char* plane, const char* channel, const char* npe) {
-  return std::string("{\"tracker\": ") + tracker + ", \"station\": " + station + ", \"plane\": " + plane + ", \"channel\": " + channel +
-         ", \"npe\": " + npe + ", \"time\": 1.0}";
+  return std::string("{\"tracker\": ") + tracker + ", \"station\": " + station + ", \"plane\": " + plane + ", \"channel\": " + channel + ", \"npe\": " + npe +
+         ", \"time\": 1.0}";
 }
 
 }  // namespace
@@ -33,8 +34,11 @@ std::string digit(const char* tracker, const char* station, const char* plane, c
 TEST_CASE("every reconstructed event of every spill is an event", "[io]") {
   const temporary_folder folder;
   const std::string text = job + spill(digit("0", "1", "2", "111", "13.5") + "," + digit("1", "5", "0", "7", "2")) + "\n" +
-                           R"({"recon_events": [{"sci_fi_event": null}, {"sci_fi_event": {"digits": []}}, {}]})" "\n" +
-                           R"({"spill_number": 6, "recon_events": null})" "\n" + spill(digit("0", "1", "2", "111", "13.5"));
+                           R"({"recon_events": [{"sci_fi_event": null}, {"sci_fi_event": {"digits": []}}, {}]})"
+                           "\n" +
+                           R"({"spill_number": 6, "recon_events": null})"
+                           "\n" +
+                           spill(digit("0", "1", "2", "111", "13.5"));
   const scifi::detector trackers = scifi::mice::trackers();
   for (const auto& path : {folder.file("a.json", text), folder.file("b.json", gzip(text))}) {
     mice_json_reader reader(path, trackers);
@@ -67,9 +71,15 @@ TEST_CASE("a malformed document is refused with file, line and field", "[io]") {
   const std::string good = digit("0", "1", "2", "111", "13.5");
   const row table[] = {
       {"[1]\n", ":2: the line is not a JSON object"},
-      {R"({"recon_events": 5})" "\n", ":2: recon_events: is not an array"},
-      {R"({"recon_events": [{"sci_fi_event": 5}]})" "\n", ":2: recon_events[0].sci_fi_event: is not an object"},
-      {R"({"recon_events": [{"sci_fi_event": {"digits": {}}}]})" "\n", ":2: recon_events[0].sci_fi_event.digits: is not an array"},
+      {R"({"recon_events": 5})"
+       "\n",
+       ":2: recon_events: is not an array"},
+      {R"({"recon_events": [{"sci_fi_event": 5}]})"
+       "\n",
+       ":2: recon_events[0].sci_fi_event: is not an object"},
+      {R"({"recon_events": [{"sci_fi_event": {"digits": {}}}]})"
+       "\n",
+       ":2: recon_events[0].sci_fi_event.digits: is not an array"},
       {spill(R"({"tracker": 0})"), ":2: recon_events[0].sci_fi_event.digits[0].station: is missing"},
       {spill(good + "," + digit("2", "1", "2", "111", "13.5")), ":2: recon_events[0].sci_fi_event.digits[1].tracker: there is no tracker 2"},
       {spill(digit("0", "9", "2", "1", "1")), ":2: recon_events[0].sci_fi_event.digits[0].station: there is no station 9 in tracker 0"},
