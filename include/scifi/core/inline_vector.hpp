@@ -9,13 +9,14 @@
 namespace scifi {
 
 /// A sequence of at most Capacity elements that lives inside its owner: no heap, trivially copyable when T is.
-/// `push_back` on a full sequence returns false and leaves it unchanged; an index out of range is a bug and asserts.
+/// `push_back` on a full sequence returns false and leaves it unchanged; an index out of range, a list longer than Capacity and `pop_back` on none are bugs and assert.
 template <class T, std::size_t Capacity>
 class inline_vector {
  public:
   using value_type = T;
   constexpr inline_vector() = default;
   constexpr inline_vector(std::initializer_list<T> list) {
+    assert(list.size() <= Capacity);
     for (const T& x : list) push_back(x);
   }
   constexpr bool push_back(const T& x) {
@@ -23,7 +24,10 @@ class inline_vector {
     items_[size_++] = x;
     return true;
   }
-  constexpr void pop_back() { --size_; }
+  constexpr void pop_back() {
+    assert(size_ > 0);
+    --size_;
+  }
   constexpr void clear() { size_ = 0; }
   [[nodiscard]] constexpr std::size_t size() const { return size_; }
   [[nodiscard]] constexpr bool empty() const { return size_ == 0; }
