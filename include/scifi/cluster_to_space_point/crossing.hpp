@@ -12,7 +12,7 @@
 namespace scifi {
 
 /// Where the lines of several clusters of one station meet, least squares.
-struct crossing {
+struct crossing_point {
   vector<double, 2> position = vector<double, 2>::Zero();             ///< x, y, tracker frame, mm
   matrix<double, 2, 2> covariance = matrix<double, 2, 2>::Identity(); ///< mm^2
   double z = 0.0;                                                      ///< mean z of the planes, tracker frame, mm
@@ -24,8 +24,8 @@ struct crossing {
 ///
 /// Each cluster measures n . (x, y) = alpha + offset with its variance; the planes are at different z while the slope is not known yet, which
 /// adds (slope_spread (z - mean z))^2 to each variance. The normal equations are 2 x 2.
-[[nodiscard]] inline crossing cross(const station& where, std::span<const cluster* const> chosen, double slope_spread) {
-  crossing out;
+[[nodiscard]] inline crossing_point cross(const station& where, std::span<const cluster* const> chosen, double slope_spread) {
+  crossing_point out;
   for (const cluster* c : chosen) out.z += where.planes[static_cast<std::size_t>(c->plane)].z_measured;
   out.z /= static_cast<double>(chosen.size());
   matrix<double, 2, 2> information = matrix<double, 2, 2>::Zero();

@@ -120,7 +120,7 @@ struct space_point_finder {
   void add(const tracker& where, const station& s, std::span<const cluster> clusters, const std::array<int, N>& chosen, std::vector<space_point>& out) const {
     std::array<const cluster*, N> members{};
     for (std::size_t i = 0; i < N; ++i) members[i] = &clusters[index(chosen[i])];
-    const crossing c = cross(s, members, slope_spread);
+    const crossing_point c = cross(s, members, slope_spread);
     if (!c.defined) return;
     const double radius = where.fiducial_radius + s.planes.front().channel_width;
     const vector<double, 2> from_axis = c.position - s.in_tracker.origin.head<2>();
