@@ -12,12 +12,27 @@ namespace scifi {
 /// The way of a fit through a tracker: the measuring surfaces against z, last station first, and behind them the reference surface of the tracker.
 ///
 /// Leg k leads to surface k; leg 0 has no length. The last leg leads to the reference surface (z = 0 of the tracker frame, station 1), where nothing is
-/// measured. Between surfaces stand the thin material above the one, the gas, and the thin material below the other.
+/// measured. Between the surfaces of two stations stand thin material, the gas and thin material; between those of one station only thin material, at the end.
 struct fit_path {
   std::vector<surface> surfaces;
   std::vector<leg> legs;  ///< one more than surfaces
   double z_reference = 0.0;
 };
+
+/// Adds a slab to a stack, to the slab of the same medium and layer if there is one: the order within thin material does not act.
+inline void add_to(slab_stack<4>& stack, const slab& more) {
+  slab_stack<4> out;
+  bool merged = false;
+  for (slab s : stack) {
+    if (!merged && s.medium.name == more.medium.name && s.layer_radiation_lengths == more.layer_radiation_lengths) {
+      s.thickness += more.thickness;
+      merged = true;
+    }
+    out.add(s);
+  }
+  if (!merged) out.add(more);
+  stack = out;
+}
 
 /// Builds the way for a tracker.
 [[nodiscard]] inline fit_path fit_path_of(const tracker& t) {
@@ -28,10 +43,15 @@ struct fit_path {
     leg l;
     l.dz = dz;
     l.direction = -1;
-    l.start = leaving;
-    l.finish = entering;
     const double free = -dz - thickness(leaving) - thickness(entering);
-    if (free > touching) l.gap.add(whole(t.gas, free));
+    if (free > touching) {
+      l.start = leaving;
+      l.gap.add(whole(t.gas, free));
+      l.finish = entering;
+    } else {
+      l.finish = leaving;
+      for (const slab& s : entering) add_to(l.finish, s);
+    }
     return l;
   };
   for (std::size_t i = 0; i < path.surfaces.size(); ++i) {

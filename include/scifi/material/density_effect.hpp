@@ -20,11 +20,10 @@ struct density_effect_correction {
 /// 2 ln10 x - C above x1; 2 ln10 x - C + a (x1 - x)^m between x0 and x1; delta0 10^(2(x - x0)) below x0 (zero in insulators).
 /// The rounding of the tabulated parameters leaves steps below 3e-4 at x0.
 template <scalar Scalar>
-[[nodiscard]] density_effect_correction<Scalar> density_effect(const Scalar& beta_gamma, const material::sternheimer& s) {
+[[nodiscard]] density_effect_correction<Scalar> density_effect(const Scalar& beta_gamma, const Scalar& log_beta_gamma, const material::sternheimer& s) {
   using std::exp;
   using std::log;
   constexpr double ln10 = std::numbers::ln10;
-  const Scalar log_beta_gamma = log(beta_gamma);
   const Scalar x = log_beta_gamma * Scalar(1.0 / ln10);
   const auto below = x < Scalar(s.x0);
   const auto between = x < Scalar(s.x1);
@@ -33,7 +32,7 @@ template <scalar Scalar>
   const Scalar power = exp(log(distance) * Scalar(s.m - 1.0)) * Scalar(s.a);  // a (x1 - x)^(m - 1)
   const Scalar line = log_beta_gamma * Scalar(2.0) - Scalar(s.c);
   const Scalar curved = line + power * distance;
-  const Scalar conducting = exp((x - Scalar(s.x0)) * Scalar(2.0 * ln10)) * Scalar(s.delta0);
+  const Scalar conducting = s.delta0 == 0.0 ? Scalar(0.0) : Scalar(exp((x - Scalar(s.x0)) * Scalar(2.0 * ln10)) * Scalar(s.delta0));
 
   const Scalar slope_curved = Scalar(2.0 * ln10) - power * Scalar(s.m);
   const Scalar slope_conducting = conducting * Scalar(2.0 * ln10);
@@ -41,6 +40,13 @@ template <scalar Scalar>
   const Scalar d_value_d_x = select(below, slope_conducting, select(between, slope_curved, Scalar(2.0 * ln10)));
   const Scalar d_value_d_beta_gamma = d_value_d_x / (beta_gamma * Scalar(ln10));
   return {value, d_value_d_beta_gamma};
+}
+
+/// The same with the logarithm taken here.
+template <scalar Scalar>
+[[nodiscard]] density_effect_correction<Scalar> density_effect(const Scalar& beta_gamma, const material::sternheimer& s) {
+  using std::log;
+  return density_effect(beta_gamma, Scalar(log(beta_gamma)), s);
 }
 
 }  // namespace scifi

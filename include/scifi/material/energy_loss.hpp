@@ -1,8 +1,14 @@
 // SPDX-License-Identifier: MPL-2.0
 #pragma once
 
+#include <cmath>
+
+#include <scifi/core/constants.hpp>
 #include <scifi/core/scalar.hpp>
+#include <scifi/core/units.hpp>
 #include <scifi/material/bethe.hpp>
+#include <scifi/material/density_effect.hpp>
+#include <scifi/material/kinematics.hpp>
 #include <scifi/material/landau.hpp>
 #include <scifi/material/particle.hpp>
 #include <scifi/material/slab.hpp>
@@ -39,32 +45,52 @@ struct mean_energy_loss {
     const Scalar d_value_d_path_factor = rate.value * Scalar(s.thickness);
     return {value, d_value_d_p, d_value_d_path_factor};
   }
+  template <scalar Scalar>
+  [[nodiscard]] energy_loss<Scalar> loss(const crossing_particle<Scalar>& crossing, const particle& hypothesis, const slab& s) const {
+    return loss(crossing.p, hypothesis, s, crossing.path_over_thickness);
+  }
 };
 
 namespace detail {
 
 /// Mode plus `offset` xi of the loss in `layers` equal layers, the share of one slab, between zero and the slab's mean loss.
+///
+/// Both are xi times a bracket that begins with ln(2 m_e beta^2 gamma^2 / I) - delta: Landau's goes on with ln(xi_total / I) + 0.200 - beta^2 (PDG 2024 eq. 34.12),
+/// twice Bethe's with ln(T_max / I) - 2 beta^2 (eq. 34.5).
 template <scalar Scalar>
-[[nodiscard]] energy_loss<Scalar> landau_loss(const Scalar& p, const particle& hypothesis, const slab& s, const Scalar& path_factor, double layers,
-                                              double offset) {
-  const ionisation_kinematics<Scalar> k = ionisation_kinematics_of(p, hypothesis);
-  const Scalar xi_normal = landau_xi(k, hypothesis, s.medium, Scalar(s.thickness));
-  const Scalar xi = xi_normal * path_factor;
-  const Scalar xi_total = landau_xi(k, hypothesis, s.medium, Scalar(path_factor * Scalar(layer_thickness(s) * layers)));
-  const landau_bracket<Scalar> mode = most_probable_loss_over_xi(k, s.medium, xi_total);
-  const Scalar bracket = mode.value + Scalar(offset);
-  const Scalar d_log_xi = Scalar(-2.0) / (k.beta_gamma * k.gamma * k.gamma);
-
-  const Scalar value = xi * bracket;
-  const Scalar d_value_d_p = xi * (d_log_xi * bracket + mode.d_value_d_beta_gamma) * Scalar(1.0 / hypothesis.mass);
-  const Scalar d_value_d_path_factor = xi_normal * (bracket + Scalar(1.0));
-
-  const energy_loss<Scalar> mean = mean_energy_loss{}.loss(p, hypothesis, s, path_factor);
-  const auto thick = mean.value < value;
-  const auto thin = value < Scalar(0.0);
+[[nodiscard]] energy_loss<Scalar> landau_loss(const crossing_particle<Scalar>& c, const particle& hypothesis, const slab& s, double layers, double offset) {
+  using std::log;
+  const ionisation_kinematics<Scalar>& k = c.kinematics;
   const Scalar zero(0.0);
-  return {select(thin, zero, select(thick, mean.value, value)), select(thin, zero, select(thick, mean.d_value_d_p, d_value_d_p)),
-          select(thin, zero, select(thick, mean.d_value_d_path_factor, d_value_d_path_factor))};
+  if (!(s.thickness > 0.0)) return {zero, zero, zero};
+  const material& medium = s.medium;
+  const double excitation = medium.mean_excitation_energy;
+  const double charge = hypothesis.charge;
+  const double xi_per_mm = 0.5 * constants::bethe_k * charge * charge * medium.z_over_a * medium.density / units::cm;  // times beta^2
+  if (!(xi_per_mm > 0.0)) return {zero, zero, zero};
+  const Scalar u = k.beta_gamma;
+  const Scalar gamma2 = k.gamma * k.gamma;
+  const density_effect_correction<Scalar> delta = density_effect(u, c.log_beta_gamma, medium.density_effect);
+
+  const Scalar xi_normal = Scalar(xi_per_mm * s.thickness) / k.beta_squared;
+  const Scalar xi = xi_normal * c.path_over_thickness;
+  const Scalar common = Scalar(2.0) * c.log_beta_gamma + Scalar(log(2.0 * constants::electron_mass / excitation)) - delta.value;
+  const Scalar log_xi_total = c.log_path - c.log_beta_squared + Scalar(log(xi_per_mm * layer_thickness(s) * layers / excitation));
+  const Scalar d_common = Scalar(2.0) / u - delta.d_value_d_beta_gamma;
+  const Scalar d_log_xi = Scalar(-2.0) / (u * gamma2);
+  const Scalar d_beta_squared = Scalar(2.0) * u / (gamma2 * gamma2);
+
+  const Scalar mode = common + log_xi_total + Scalar(landau::most_probable_offset + offset) - k.beta_squared;
+  const Scalar mean = common + c.log_largest_transfer - Scalar(log(excitation)) - Scalar(2.0) * k.beta_squared;
+  const auto thick = mean < mode;
+  const Scalar bracket = select(thick, mean, mode);
+  const Scalar d_bracket = select(thick, Scalar(d_common + k.d_log_largest_transfer - Scalar(2.0) * d_beta_squared), Scalar(d_common + d_log_xi - d_beta_squared));
+  const Scalar by_path = select(thick, Scalar(0.0), Scalar(1.0));
+
+  const auto thin = bracket < zero;
+  const Scalar per_mass(1.0 / hypothesis.mass);
+  return {select(thin, zero, Scalar(xi * bracket)), select(thin, zero, Scalar(xi * (d_log_xi * bracket + d_bracket) * per_mass)),
+          select(thin, zero, Scalar(xi_normal * (bracket + by_path)))};
 }
 
 }  // namespace detail
@@ -80,7 +106,11 @@ struct most_probable_energy_loss {
 
   template <scalar Scalar>
   [[nodiscard]] energy_loss<Scalar> loss(const Scalar& p, const particle& hypothesis, const slab& s, const Scalar& path_over_thickness) const {
-    return detail::landau_loss(p, hypothesis, s, path_over_thickness, traversed_layers, 0.0);
+    return loss(crossing_particle_of(p, hypothesis, path_over_thickness), hypothesis, s);
+  }
+  template <scalar Scalar>
+  [[nodiscard]] energy_loss<Scalar> loss(const crossing_particle<Scalar>& crossing, const particle& hypothesis, const slab& s) const {
+    return detail::landau_loss(crossing, hypothesis, s, traversed_layers, 0.0);
   }
 };
 
@@ -91,7 +121,11 @@ struct median_energy_loss {
 
   template <scalar Scalar>
   [[nodiscard]] energy_loss<Scalar> loss(const Scalar& p, const particle& hypothesis, const slab& s, const Scalar& path_over_thickness) const {
-    return detail::landau_loss(p, hypothesis, s, path_over_thickness, traversed_layers, landau::median_above_mode);
+    return loss(crossing_particle_of(p, hypothesis, path_over_thickness), hypothesis, s);
+  }
+  template <scalar Scalar>
+  [[nodiscard]] energy_loss<Scalar> loss(const crossing_particle<Scalar>& crossing, const particle& hypothesis, const slab& s) const {
+    return detail::landau_loss(crossing, hypothesis, s, traversed_layers, landau::median_above_mode);
   }
 };
 

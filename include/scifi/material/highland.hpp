@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include <scifi/core/scalar.hpp>
+#include <scifi/material/kinematics.hpp>
 #include <scifi/material/particle.hpp>
 
 namespace scifi {
@@ -35,6 +36,18 @@ template <scalar Scalar>
   const Scalar correction = larger_of(Scalar(Scalar(1.0) + log(safe_argument) * Scalar(highland::log_coefficient)), Scalar(0.0));
   const Scalar unit = inverse_beta2 / p2 * Scalar(highland::energy * highland::energy * charge2);
   return select(matter, Scalar(unit * radiation_lengths_along_path * correction * correction), Scalar(0.0));
+}
+
+/// The same for a particle whose logarithms are known already; thicknesses at normal incidence.
+template <scalar Scalar>
+[[nodiscard]] Scalar highland_variance(const crossing_particle<Scalar>& crossing, const particle& hypothesis, double radiation_lengths, double layer_radiation_lengths) {
+  using std::log;
+  const double charge2 = static_cast<double>(hypothesis.charge) * hypothesis.charge;
+  if (!(radiation_lengths > 0.0) || charge2 == 0.0) return Scalar(0.0);
+  const Scalar logarithm = Scalar(log(layer_radiation_lengths * charge2)) + crossing.log_path - crossing.log_beta_squared;
+  const Scalar correction = larger_of(Scalar(Scalar(1.0) + logarithm * Scalar(highland::log_coefficient)), Scalar(0.0));
+  const Scalar unit = Scalar(highland::energy * highland::energy * charge2 * radiation_lengths) / (crossing.p * crossing.p * crossing.kinematics.beta_squared);
+  return unit * crossing.path_over_thickness * correction * correction;
 }
 
 }  // namespace scifi

@@ -37,4 +37,26 @@ template <scalar Scalar>
   return {beta_gamma, gamma, beta_squared, largest_transfer, d_log};
 }
 
+/// A particle on its way through matter at an angle: what the formulae of all slabs share, so that it is worked out once.
+template <scalar Scalar>
+struct crossing_particle {
+  ionisation_kinematics<Scalar> kinematics;
+  Scalar p;                     ///< MeV/c
+  Scalar path_over_thickness;   ///< 1/cos(angle to z) >= 1
+  Scalar log_beta_gamma;
+  Scalar log_beta_squared;
+  Scalar log_largest_transfer;  ///< of T_max in MeV
+  Scalar log_path;              ///< of path_over_thickness
+};
+
+/// p > 0 in MeV/c, path_over_thickness >= 1.
+template <scalar Scalar>
+[[nodiscard]] crossing_particle<Scalar> crossing_particle_of(const Scalar& p, const particle& hypothesis, const Scalar& path_over_thickness) {
+  using std::log;
+  const ionisation_kinematics<Scalar> k = ionisation_kinematics_of(p, hypothesis);
+  const Scalar log_beta_gamma = log(k.beta_gamma);
+  const Scalar log_beta_squared = Scalar(2.0) * (log_beta_gamma - log(k.gamma));
+  return {k, p, path_over_thickness, log_beta_gamma, log_beta_squared, log(k.largest_transfer), log(path_over_thickness)};
+}
+
 }  // namespace scifi

@@ -32,6 +32,10 @@ struct highland_scattering {
     const Scalar layer = path_over_thickness * Scalar(s.layer_radiation_lengths);
     return highland_variance(p, hypothesis, own, layer);
   }
+  template <scalar Scalar>
+  [[nodiscard]] Scalar variance(const crossing_particle<Scalar>& crossing, const particle& hypothesis, const slab& s) const {
+    return highland_variance(crossing, hypothesis, radiation_lengths(s), s.layer_radiation_lengths);
+  }
 };
 
 }  // namespace scifi

@@ -54,6 +54,14 @@ struct landau_straggling {
     const Scalar core = xi * xi_total * Scalar(landau::core_width * landau::core_width);
     return smaller_of(core, bohr_variance(xi, k));
   }
+  template <scalar Scalar>
+  [[nodiscard]] Scalar variance(const crossing_particle<Scalar>& crossing, const particle& hypothesis, const slab& s) const {
+    const ionisation_kinematics<Scalar>& k = crossing.kinematics;
+    const Scalar xi = landau_xi(k, hypothesis, s.medium, Scalar(crossing.path_over_thickness * Scalar(s.thickness)));
+    const double total_over_slab = s.thickness > 0.0 ? traversed_layers * layer_thickness(s) / s.thickness : 1.0;
+    const Scalar core = xi * xi * Scalar(landau::core_width * landau::core_width * total_over_slab);
+    return smaller_of(core, bohr_variance(xi, k));
+  }
 };
 
 }  // namespace scifi

@@ -7,6 +7,7 @@
 #include <scifi/core/scalar.hpp>
 #include <scifi/kalman/concepts.hpp>
 #include <scifi/material/concepts.hpp>
+#include <scifi/material/in_slabs.hpp>
 #include <scifi/material/particle.hpp>
 #include <scifi/track_model/leg.hpp>
 #include <scifi/track_model/line_state.hpp>
@@ -39,33 +40,34 @@ struct material_noise {
   Straggling straggling;
   particle hypothesis;
 
-  /// 5 x 5 covariance at the end of the leg; `moved` is what the propagator made of `start`.
+  /// 5 x 5 covariance at the end of the leg; `moved` is what the propagator made of `start`. Widths are taken at the momentum at the start.
   template <class Scalar>
   [[nodiscard]] matrix<Scalar, 5, 5> covariance(const vector<Scalar, 5>& start, const leg& step, const kalman::propagated<Scalar, 5>& moved) const {
     using s = slope_state;
+    using std::sqrt;
     matrix<Scalar, 5, 5> q = matrix<Scalar, 5, 5>::Zero();
+    if (step.start.empty() && step.gap.empty() && step.finish.empty()) return q;
+    const Scalar path = sqrt(Scalar(1.0) + square(Scalar(start[s::tx])) + square(Scalar(start[s::ty])));
+    const crossing_particle<Scalar> crossing = crossing_particle_of(Scalar(path / magnitude(start[s::q_over_pz])), hypothesis, path);
 
-    if (!step.gap.empty() || !step.finish.empty()) {
-      const kick<Scalar> thin = scatter(moved.state, step.finish);
-      add_kick(q, thin);
-      if (!step.gap.empty()) {
-        const kick<Scalar> thick = scatter(moved.state, step.gap);
-        add_kick(q, thick);
-        const Scalar half = Scalar(0.5 * step.dz);
-        const Scalar third = Scalar(step.dz * step.dz / 3.0);
-        q(s::x, s::x) += third * thick.tx_tx;
-        q(s::y, s::y) += third * thick.ty_ty;
-        q(s::x, s::y) += third * thick.tx_ty;
-        q(s::x, s::tx) += half * thick.tx_tx;
-        q(s::x, s::ty) += half * thick.tx_ty;
-        q(s::tx, s::y) += half * thick.tx_ty;
-        q(s::y, s::ty) += half * thick.ty_ty;
-        q(s::x, s::q_over_pz) += half * thick.tx_k;
-        q(s::y, s::q_over_pz) += half * thick.ty_k;
-      }
+    if (!step.finish.empty()) add_kick(q, scatter(moved.state, crossing, step.finish));
+    if (!step.gap.empty()) {
+      const kick<Scalar> thick = scatter(moved.state, crossing, step.gap);
+      add_kick(q, thick);
+      const Scalar half = Scalar(0.5 * step.dz);
+      const Scalar third = Scalar(step.dz * step.dz / 3.0);
+      q(s::x, s::x) += third * thick.tx_tx;
+      q(s::y, s::y) += third * thick.ty_ty;
+      q(s::x, s::y) += third * thick.tx_ty;
+      q(s::x, s::tx) += half * thick.tx_tx;
+      q(s::x, s::ty) += half * thick.tx_ty;
+      q(s::tx, s::y) += half * thick.tx_ty;
+      q(s::y, s::ty) += half * thick.ty_ty;
+      q(s::x, s::q_over_pz) += half * thick.tx_k;
+      q(s::y, s::q_over_pz) += half * thick.ty_k;
     }
     if (!step.start.empty()) {
-      const kick<Scalar> c = scatter(start, step.start);
+      const kick<Scalar> c = scatter(start, crossing, step.start);
       const auto& f = moved.jacobian;
       // F C F' where C has only the rows and columns tx, ty, q/pz.
       for (int i = 0; i < 5; ++i) {
@@ -75,7 +77,8 @@ struct material_noise {
         for (int j = i; j < 5; ++j) q(i, j) += by_tx * f(j, s::tx) + by_ty * f(j, s::ty) + by_k * f(j, s::q_over_pz);
       }
     }
-    q.template triangularView<Eigen::StrictlyLower>() = q.transpose();
+    for (int i = 1; i < 5; ++i)
+      for (int j = 0; j < i; ++j) q(i, j) = q(j, i);
     return q;
   }
 
@@ -87,26 +90,18 @@ struct material_noise {
   };
 
   template <class Scalar, std::size_t N>
-  [[nodiscard]] kick<Scalar> scatter(const vector<Scalar, 5>& at, const slab_stack<N>& stack) const {
+  [[nodiscard]] kick<Scalar> scatter(const vector<Scalar, 5>& at, const crossing_particle<Scalar>& crossing, const slab_stack<N>& stack) const {
     using s = slope_state;
-    using std::sqrt;
     const Scalar tx = at[s::tx];
     const Scalar ty = at[s::ty];
     const Scalar k = at[s::q_over_pz];
     const Scalar t2 = tx * tx + ty * ty;
-    const Scalar path = sqrt(Scalar(1.0) + t2);
-    const Scalar p = path / magnitude(k);
-    Scalar angle(0.0);
-    Scalar energy(0.0);
-    for (const slab& slice : stack) {
-      angle += scattering.variance(p, hypothesis, slice, path);
-      energy += straggling.variance(p, hypothesis, slice, path);
-    }
+    const Scalar angle = variance_in_slabs(scattering, crossing, hypothesis, stack);
+    const Scalar energy = variance_in_slabs(straggling, crossing, hypothesis, stack);
     const matrix<Scalar, 2, 2> c = slope_covariance(tx, ty, angle);
     const Scalar along = angle * (Scalar(1.0) + t2) * k;
-    // d(q/pz)/dE = -(q/pz)/p dp/dE, dp/dE = E/p.
-    const Scalar p2 = p * p;
-    const Scalar d_k_d_e2 = k * k * (p2 + Scalar(hypothesis.mass * hypothesis.mass)) / (p2 * p2);
+    // d(q/pz)/dE = -(q/pz)/p dp/dE, dp/dE = E/p = 1/beta.
+    const Scalar d_k_d_e2 = k * k / (crossing.p * crossing.p * crossing.kinematics.beta_squared);
     return {c(0, 0), c(0, 1), c(1, 1), Scalar(along * tx), Scalar(along * ty), Scalar(angle * t2 * k * k + energy * d_k_d_e2)};
   }
 
