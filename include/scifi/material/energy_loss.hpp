@@ -74,17 +74,19 @@ template <scalar Scalar>
 
   const Scalar xi_normal = Scalar(xi_per_mm * s.thickness) / k.beta_squared;
   const Scalar xi = xi_normal * c.path_over_thickness;
-  const Scalar common = Scalar(2.0) * c.log_beta_gamma + Scalar(log(2.0 * constants::electron_mass / excitation)) - delta.value;
-  const Scalar log_xi_total = c.log_path - c.log_beta_squared + Scalar(log(xi_per_mm * layer_thickness(s) * layers / excitation));
-  const Scalar d_common = Scalar(2.0) / u - delta.d_value_d_beta_gamma;
+  const Scalar common = Scalar(2.0) * c.log_beta_gamma - delta.value - k.beta_squared;
   const Scalar d_log_xi = Scalar(-2.0) / (u * gamma2);
-  const Scalar d_beta_squared = Scalar(2.0) * u / (gamma2 * gamma2);
+  const Scalar d_beta_squared = -u * u * d_log_xi / gamma2;
+  const Scalar d_common = Scalar(2.0) / u - delta.d_value_d_beta_gamma - d_beta_squared;
 
-  const Scalar mode = common + log_xi_total + Scalar(landau::most_probable_offset + offset) - k.beta_squared;
-  const Scalar mean = common + c.log_largest_transfer - Scalar(log(excitation)) - Scalar(2.0) * k.beta_squared;
+  // The constants under the logarithms are gathered, one each.
+  const double twice_mass = 2.0 * constants::electron_mass / (excitation * excitation);
+  const Scalar mode = common + c.log_path - c.log_beta_squared +
+                      Scalar(log(twice_mass * xi_per_mm * layer_thickness(s) * layers) + landau::most_probable_offset + offset);
+  const Scalar mean = common + c.log_largest_transfer + Scalar(log(twice_mass)) - k.beta_squared;
   const auto thick = mean < mode;
   const Scalar bracket = select(thick, mean, mode);
-  const Scalar d_bracket = select(thick, Scalar(d_common + k.d_log_largest_transfer - Scalar(2.0) * d_beta_squared), Scalar(d_common + d_log_xi - d_beta_squared));
+  const Scalar d_bracket = d_common + select(thick, Scalar(k.d_log_largest_transfer - d_beta_squared), d_log_xi);
   const Scalar by_path = select(thick, Scalar(0.0), Scalar(1.0));
 
   const auto thin = bracket < zero;

@@ -49,7 +49,8 @@ struct energy_loss_propagator {
     total.d_value_d_p += before.d_value_d_p;
     total.d_value_d_path_factor += before.d_value_d_path_factor;
 
-    const changed<Scalar> departing = after_loss(start, p, path, sign, before);
+    const changed<Scalar> departing =
+        step.start.empty() ? changed<Scalar>{start[s::q_over_pz], Scalar(1.0), Scalar(0.0), Scalar(0.0)} : after_loss(start, p, path, sign, before);
     const changed<Scalar> arriving = after_loss(start, p, path, sign, total);
     vector<Scalar, 5> flying = start;
     flying[s::q_over_pz] = departing.q_over_pz;
@@ -84,8 +85,9 @@ struct energy_loss_propagator {
     const momentum_change<Scalar> m = momentum_after_loss(p, hypothesis.mass, Scalar(sign * lost.value));
     const Scalar d_new_d_p = m.d_new_d_p + m.d_new_d_loss * sign * lost.d_value_d_p;       // at fixed path
     const Scalar d_new_d_path = m.d_new_d_loss * sign * lost.d_value_d_path_factor;        // at fixed p
-    const Scalar k_new = k * p / m.p_new;
-    const Scalar k_per_p = k_new / m.p_new;
+    const Scalar per_p = Scalar(1.0) / m.p_new;
+    const Scalar k_new = k * p * per_p;
+    const Scalar k_per_p = k_new * per_p;
     // p = path / |k|, k' = sign(k) path / p'.
     const Scalar d_path_over_path = (k_new - k_per_p * (d_new_d_p * p + d_new_d_path * path)) / (path * path);
     return {k_new, Scalar(k_per_p * p / k * d_new_d_p), Scalar(d_path_over_path * at[s::tx]), Scalar(d_path_over_path * at[s::ty])};
