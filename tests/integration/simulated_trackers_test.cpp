@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: MPL-2.0
+// Muons simulated by Geant4 in the trackers, fibre by fibre and independently of this library, from digits to tracks.
+#include <cstddef>
+#include <filesystem>
+#include <map>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <scifi/chain/reconstruction.hpp>
+#include <scifi/io/csv.hpp>
+#include <scifi/io/digit_reader.hpp>
+#include <scifi/io/geometry_json.hpp>
+
+#include "support/catch.hpp"
+#include "support/shared_data.hpp"
+#include "support/track_score.hpp"
+
+using namespace scifi;
+
+namespace {
+
+std::map<long, std::vector<crossing>> read_truth(const std::filesystem::path& path) {
+  std::map<long, std::vector<crossing>> out;
+  csv_reader rows(path, {"event", "track", "pdg", "tracker", "station", "plane", "x_mm", "y_mm", "z_mm", "px_MeV", "py_MeV", "pz_MeV"});
+  while (rows.next_row())
+    out[rows.whole_number<long>(0)].push_back({rows.whole_number<int>(1), rows.whole_number<int>(2), rows.whole_number<int>(3), rows.whole_number<int>(4),
+                                               rows.whole_number<int>(5), {rows.number(6), rows.number(7), rows.number(8)},
+                                               {rows.number(9), rows.number(10), rows.number(11)}});
+  return out;
+}
+
+/// Reconstructs a set and compares it with its truth.
+test::track_score score(const std::filesystem::path& folder, const std::string& set, double field) {
+  const detector where = read_geometry(folder / "geometry.json");
+  auto truth = read_truth(folder / (set + "_truth.csv.gz"));
+  reconstruction_options options;
+  options.field = field;
+  const auto reconstruct = make_reconstruction(where, options);
+  typename decltype(reconstruct)::buffers work;
+  test::track_score out(field != 0.0);
+  digit_reader digits(folder / (set + "_digits.csv.gz"), where);
+  event e;
+  while (digits.read(e)) {
+    reconstruct(e, work);
+    out.add(truth[e.number], e);
+    truth.erase(e.number);
+  }
+  const event without_digits;
+  for (const auto& [number, crossings] : truth) out.add(crossings, without_digits);
+  return out;
+}
+
+// A limit holds for the detector, a set of events is a sample: two standard errors are granted.
+constexpr double errors = 2.0;
+
+void check_at_least(const test::share& s, double limit) {
+  CAPTURE(s.expected, s.found, s.value(), limit);
+  CHECK(s.value() + errors * s.error() >= limit);
+}
+
+void check_spread_at_most(const test::sample& s, double limit) {
+  CAPTURE(s.size(), s.spread(), limit);
+  CHECK(s.spread() * (1.0 - errors * s.relative_error_of_spread()) <= limit);
+}
+
+void check_unit_spread(const test::sample& pull) {
+  const double error = errors * pull.spread() * pull.relative_error_of_spread();
+  CAPTURE(pull.size(), pull.spread());
+  CHECK(pull.spread() + error > 0.95);
+  CHECK(pull.spread() - error < 1.05);
+}
+
+void check_unit_mean(const test::sample& chi2_per_ndf) {
+  CAPTURE(chi2_per_ndf.size(), chi2_per_ndf.mean());
+  CHECK(chi2_per_ndf.mean() + errors * chi2_per_ndf.error_of_mean() > 0.95);
+  CHECK(chi2_per_ndf.mean() - errors * chi2_per_ndf.error_of_mean() < 1.05);
+}
+
+void check_one_muon_in_a_field(const test::track_score& s) {
+  CHECK(s.events == 6000);
+  CHECK(s.all.expected > 4000);
+  CHECK(s.failed == 0);
+  CHECK(s.all.value() >= 0.985);
+  for (std::size_t i = 0; i < s.by_pt.size(); ++i) {
+    INFO("pt from " << test::pt_edges[i]);
+    if (s.by_pt[i].expected > 50) check_at_least(s.by_pt[i], 0.97);
+  }
+  CHECK(s.ghosts_per_event() <= 0.02);
+  check_spread_at_most(s.x, 0.345);
+  check_spread_at_most(s.y, 0.345);
+  check_spread_at_most(s.pt, 1.03);
+  CHECK(std::abs(s.pt.median()) < 0.05);
+  for (std::size_t i = 0; i < s.pull.size(); ++i) {
+    INFO(momentum_state::names[i]);
+    check_unit_spread(s.pull[i]);
+  }
+  check_unit_mean(s.chi2_per_ndf);
+  CHECK(s.charge_above_5.value() >= 0.995);
+}
+
+}  // namespace
+
+TEST_CASE("one muon in the downstream tracker in a field is found with the right state and errors", "[integration]") {
+  if (const auto data = test::shared_data()) check_one_muon_in_a_field(score(*data / "g4", "tkd_helical", 3.0 * units::tesla));
+}
+
+TEST_CASE("one muon in the upstream tracker in a field is found with the right state and errors", "[integration]") {
+  if (const auto data = test::shared_data()) check_one_muon_in_a_field(score(*data / "g4", "tku_helical", 3.0 * units::tesla));
+}
+
+TEST_CASE("one muon without a field is found with the right line and errors", "[integration]") {
+  const auto data = test::shared_data();
+  if (!data) return;
+  const test::track_score s = score(*data / "g4", "tkd_straight", 0.0);
+  CHECK(s.events == 3000);
+  CHECK(s.all.expected > 1500);
+  CHECK(s.failed == 0);
+  CHECK(s.all.value() >= 0.99);
+  CHECK(s.ghosts_per_event() <= 0.02);
+  check_spread_at_most(s.x, 0.345);
+  check_spread_at_most(s.y, 0.345);
+  check_unit_spread(s.pull[momentum_state::x]);
+  check_unit_spread(s.pull[momentum_state::y]);
+  for (const test::sample& pull : s.slope_pull) check_unit_spread(pull);
+  check_unit_mean(s.chi2_per_ndf);
+}
+
+TEST_CASE("two and four muons at once are found and told apart", "[integration]") {
+  const auto data = test::shared_data();
+  if (!data) return;
+  const auto check = [&data](const char* set, double efficiency) {
+    INFO(set);
+    const test::track_score s = score(*data / "g4", set, 3.0 * units::tesla);
+    CHECK(s.events == 1000);
+    CHECK(s.failed == 0);
+    CHECK(s.all.value() >= efficiency);
+    CHECK(s.ghosts_per_expected() <= 0.05);
+    CHECK(s.charge_above_5.value() >= 0.995);
+    check_unit_mean(s.chi2_per_ndf);
+  };
+  check("tkd_multi2", 0.97);
+  check("tkd_multi4", 0.93);
+}
