@@ -142,10 +142,10 @@ def check_tests_exist(root, headers, problem):
 
 def check_registered(root, registered, problem):
     built = {pathlib.Path(line).resolve() for line in registered.read_text(encoding="utf-8").split("\n") if line}
-    for folder in ("tests", "examples", "bench"):
-        for path in sorted((root / folder).rglob("*.cpp")):
-            if path.resolve() not in built:
-                problem(path, 1, "no target builds it: it lies where no glob looks")
+    files = [path for folder in ("tests", "examples", "bench") for path in (root / folder).rglob("*.cpp")]
+    for path in sorted(files + list((root / "tests").rglob("*_test.py"))):
+        if path.resolve() not in built:
+            problem(path, 1, "nothing builds or runs it: it lies where no glob looks")
 
 
 def check_licence(root, problem):
