@@ -24,7 +24,8 @@ Scalar estimate_distance(const scifi::kalman::estimate<Scalar, N>& a, const scif
 /// How much the order of two independent linear measurements matters to an update policy.
 template <class Update, class Scalar, int N, class A, class B>
 Scalar order_dependence(const Update& update, const scifi::kalman::estimate<Scalar, N>& prior, const A& a, const B& b) {
-  const auto ab = update(update(prior, a).posterior, b), ba = update(update(prior, b).posterior, a);
+  const auto ab = update(update(prior, a).posterior, b);
+  const auto ba = update(update(prior, b).posterior, a);
   return estimate_distance(ab.posterior, ba.posterior);
 }
 

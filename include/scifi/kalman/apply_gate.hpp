@@ -64,7 +64,8 @@ void apply_gate(const Gate& gate, const basic_updated<E, M>& u, basic_updated<E,
   if constexpr (std::is_same_v<std::remove_cvref_t<decltype(accepted)>, bool>) {
     if (!accepted) {
       out.posterior = before;
-      out.outlier = mask<typename E::scalar>(true);
+      const typename E::scalar zero(0.0);
+      out.outlier = zero <= zero;  // in every lane
     }
   } else {
     keep_where(accepted, out.posterior, before);

@@ -84,11 +84,13 @@ concept update_policy = requires(const U& u, const Estimate& prior, const Measur
   { u(prior, m) } -> std::convertible_to<basic_updated<Estimate, max_measurement_dimension<Measurement>>>;
 };
 
-/// g(chi2, measurement_dimension): true where the measurement is to be used.
+/// g(chi2, measurement_dimension): true where the measurement is to be used; a bool, or a mask with one entry a lane.
 /// Law: what it accepts at some chi2 it accepts at any smaller one. It must say false to NaN, or let the failed update decide.
 template <class G, class Scalar>
 concept gate = requires(const G& g, const Scalar& chi2, int dimension) {
   { g(chi2, dimension) } -> std::convertible_to<mask<Scalar>>;
+} || requires(const G& g, const Scalar& chi2, int dimension) {
+  { g(chi2, dimension) } -> std::same_as<bool>;
 };
 
 }  // namespace scifi::kalman
