@@ -15,10 +15,13 @@
 #include "support/catch.hpp"
 #include "support/shared_data.hpp"
 #include "support/track_score.hpp"
+#include "support/track_score_checks.hpp"
 
 using namespace scifi;
 
 namespace {
+
+constexpr test::limits sampled;
 
 std::map<long, std::vector<crossing>> read_truth(const std::filesystem::path& path) {
   std::map<long, std::vector<crossing>> out;
@@ -51,32 +54,6 @@ test::track_score score(const std::filesystem::path& folder, const std::string& 
   return out;
 }
 
-// A limit holds for the detector, a set of events is a sample: two standard errors are granted.
-constexpr double errors = 2.0;
-
-void check_at_least(const test::share& s, double limit) {
-  CAPTURE(s.expected, s.found, s.value(), limit);
-  CHECK(s.value() + errors * s.error() >= limit);
-}
-
-void check_spread_at_most(const test::sample& s, double limit) {
-  CAPTURE(s.size(), s.spread(), limit);
-  CHECK(s.spread() * (1.0 - errors * s.relative_error_of_spread()) <= limit);
-}
-
-void check_unit_spread(const test::sample& pull) {
-  const double error = errors * pull.spread() * pull.relative_error_of_spread();
-  CAPTURE(pull.size(), pull.spread());
-  CHECK(pull.spread() + error > 0.95);
-  CHECK(pull.spread() - error < 1.05);
-}
-
-void check_unit_mean(const test::sample& chi2_per_ndf) {
-  CAPTURE(chi2_per_ndf.size(), chi2_per_ndf.mean());
-  CHECK(chi2_per_ndf.mean() + errors * chi2_per_ndf.error_of_mean() > 0.95);
-  CHECK(chi2_per_ndf.mean() - errors * chi2_per_ndf.error_of_mean() < 1.05);
-}
-
 void check_one_muon_in_a_field(const test::track_score& s) {
   CHECK(s.events == 6000);
   CHECK(s.all.expected > 4000);
@@ -84,18 +61,18 @@ void check_one_muon_in_a_field(const test::track_score& s) {
   CHECK(s.all.value() >= 0.985);
   for (std::size_t i = 0; i < s.by_pt.size(); ++i) {
     INFO("pt from " << test::pt_edges[i]);
-    if (s.by_pt[i].expected > 50) check_at_least(s.by_pt[i], 0.97);
+    if (s.by_pt[i].expected > 50) sampled.at_least(s.by_pt[i], 0.97);
   }
   CHECK(s.ghosts_per_event() <= 0.02);
-  check_spread_at_most(s.x, 0.345);
-  check_spread_at_most(s.y, 0.345);
-  check_spread_at_most(s.pt, 1.03);
+  sampled.spread_at_most(s.x, 0.345);
+  sampled.spread_at_most(s.y, 0.345);
+  sampled.spread_at_most(s.pt, 1.03);
   CHECK(std::abs(s.pt.median()) < 0.05);
   for (std::size_t i = 0; i < s.pull.size(); ++i) {
     INFO(momentum_state::names[i]);
-    check_unit_spread(s.pull[i]);
+    sampled.unit_spread(s.pull[i]);
   }
-  check_unit_mean(s.chi2_per_ndf);
+  sampled.unit_mean(s.chi2_per_ndf);
   CHECK(s.charge_above_5.value() >= 0.995);
 }
 
@@ -118,12 +95,12 @@ TEST_CASE("one muon without a field is found with the right line and errors", "[
   CHECK(s.failed == 0);
   CHECK(s.all.value() >= 0.99);
   CHECK(s.ghosts_per_event() <= 0.02);
-  check_spread_at_most(s.x, 0.345);
-  check_spread_at_most(s.y, 0.345);
-  check_unit_spread(s.pull[momentum_state::x]);
-  check_unit_spread(s.pull[momentum_state::y]);
-  for (const test::sample& pull : s.slope_pull) check_unit_spread(pull);
-  check_unit_mean(s.chi2_per_ndf);
+  sampled.spread_at_most(s.x, 0.345);
+  sampled.spread_at_most(s.y, 0.345);
+  sampled.unit_spread(s.pull[momentum_state::x]);
+  sampled.unit_spread(s.pull[momentum_state::y]);
+  for (const test::sample& pull : s.slope_pull) sampled.unit_spread(pull);
+  sampled.unit_mean(s.chi2_per_ndf);
 }
 
 TEST_CASE("two and four muons at once are found and told apart", "[integration]") {
@@ -137,7 +114,7 @@ TEST_CASE("two and four muons at once are found and told apart", "[integration]"
     CHECK(s.all.value() >= efficiency);
     CHECK(s.ghosts_per_expected() <= 0.05);
     CHECK(s.charge_above_5.value() >= 0.995);
-    check_unit_mean(s.chi2_per_ndf);
+    sampled.unit_mean(s.chi2_per_ndf);
   };
   check("tkd_multi2", 0.97);
   check("tkd_multi4", 0.93);

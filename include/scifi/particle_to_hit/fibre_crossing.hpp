@@ -61,7 +61,8 @@ inline constexpr int max_fibre_crossings = 8;
     const double closest = (to_axis * d_alpha + rise * d_z) / (across * across);
     if (!out.push_back({fibre, closest - half_chord, 2.0 * half_chord})) break;
   }
-  std::sort(out.begin(), out.end(), [](const fibre_crossing& a, const fibre_crossing& b) { return a.entry < b.entry; });
+  // Cores of a row do not overlap, and alpha falls as the fibre number grows: a track towards growing alpha meets them in falling order.
+  if (d_alpha > 0.0) std::reverse(out.begin(), out.end());
   return out;
 }
 
