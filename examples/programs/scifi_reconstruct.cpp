@@ -80,7 +80,7 @@ void print_summary(const options& o, const totals& sum, const scifi::particle& h
   row("tracks", sum.tracks);
   row("failures", sum.failures);
   row("events flagged", sum.flagged,
-      fmt::format("   too many digits {}, combinations limited {}, fit failed {}", sum.too_many_digits, sum.combinations_limited, sum.fit_failed));
+      fmt::format("   combinations limited {}, fit failed {}", sum.combinations_limited, sum.fit_failed));
   fmt::print(out, "{:<16}{:>12.3f} s, {:.0f} events/s, {} thread{}\n", "time", seconds, static_cast<double>(sum.events) / seconds, threads,
              threads == 1 ? "" : "s");
   fmt::print(out, "{:<16}{}{}\n", "written", o.output, o.track_points.empty() ? "" : ", " + o.track_points);
@@ -98,9 +98,14 @@ void run(const options& o) {
   const auto start = std::chrono::steady_clock::now();
   check(o);
   const scifi::particle hypothesis = hypothesis_named(o.particle);
-  const scifi::detector detector = o.geometry.empty() ? scifi::mice::trackers() : scifi::read_geometry(o.geometry);
-  const scifi::reconstruction_options choice{
-      .field = o.field * scifi::units::tesla, .hypothesis = hypothesis, .min_npe = o.min_npe, .line_momentum = o.momentum};
+  scifi::detector detector = scifi::mice::trackers();
+  scifi::reconstruction_options choice{
+      .field = o.field * scifi::units::tesla, .hypothesis = hypothesis, .min_npe = o.min_npe, .line_momentum = o.momentum, .fibre = {}};
+  if (!o.geometry.empty()) {
+    const nlohmann::json document = scifi::read_json(o.geometry);
+    detector = scifi::geometry_from_json(document, o.geometry);
+    choice.fibre = scifi::fibre_from_json(document, o.geometry);
+  }
   const auto reconstruct = scifi::make_reconstruction(detector, choice);
 
   event_source source(o.digits, detector);

@@ -22,7 +22,7 @@
 /// What is counted on the way.
 struct totals {
   long events = 0, digits = 0, clusters = 0, space_points = 0, candidates = 0, tracks = 0, failures = 0;
-  long flagged = 0, too_many_digits = 0, combinations_limited = 0, fit_failed = 0;
+  long flagged = 0, combinations_limited = 0, fit_failed = 0;
 
   void count(const scifi::event& e) {
     ++events;
@@ -32,7 +32,6 @@ struct totals {
     candidates += static_cast<long>(e.candidates.size());
     for (const scifi::track& t : e.tracks) ++(t.status.ok() ? tracks : failures);
     flagged += e.flags != scifi::event_flags{};
-    too_many_digits += e.flags.too_many_digits;
     combinations_limited += e.flags.combinations_limited;
     fit_failed += e.flags.fit_failed;
   }
@@ -45,7 +44,6 @@ struct totals {
     tracks += more.tracks;
     failures += more.failures;
     flagged += more.flagged;
-    too_many_digits += more.too_many_digits;
     combinations_limited += more.combinations_limited;
     fit_failed += more.fit_failed;
   }

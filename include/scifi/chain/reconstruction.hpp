@@ -80,7 +80,8 @@ struct reconstruction_options {
   double field = 0.0;               ///< Bz in the tracker frames, (MeV/c)/(e mm): tesla times units::tesla; zero: straight tracks
   particle hypothesis = muon_plus;  ///< mass for scattering and energy loss; the charge is found in a field
   double min_npe = 2.0;             ///< photo-electrons
-  double line_momentum = 200.0;     ///< MeV/c, assumed for straight tracks
+  double line_momentum = 200.0;     ///< MeV/c along z, assumed for straight tracks
+  fibre_doublet fibre{};            ///< what the planes are made of, for the resolution of clusters
 };
 
 /// The standard chain for trackers of scintillating fibres.
@@ -104,10 +105,14 @@ struct reconstruction_options {
 
   cluster_finder<fibre_resolution> clusters;
   clusters.min_npe = options.min_npe;
+  clusters.resolution.fibre = options.fibre;
+  // Pattern recognition chooses among all consistent triplets: with several tracks the best crossing of a station alone is not always the true one.
+  space_point_finder points;
+  points.use = cluster_use::shared;
   std::vector<tracker_stages<track_finder, fitter>> trackers;
   for (const tracker& t : where.trackers)
     trackers.push_back({t, track_finder(t, finding, options.hypothesis, scattering), fitter(t, fitting, options.hypothesis, loss, scattering, straggling)});
-  return reconstruction(where, clusters, space_point_finder{}, std::move(trackers));
+  return reconstruction(where, clusters, points, std::move(trackers));
 }
 
 }  // namespace scifi

@@ -13,7 +13,6 @@ namespace scifi {
 
 /// What a stage had to leave out of an event. Nothing is dropped without one of these being set.
 struct event_flags {
-  bool too_many_digits = false;        ///< a plane had more digits than the limit; its tracker was not reconstructed
   bool combinations_limited = false;   ///< a combinatorial search reached its bound
   bool fit_failed = false;             ///< at least one candidate could not be fitted
   friend constexpr bool operator==(const event_flags&, const event_flags&) = default;

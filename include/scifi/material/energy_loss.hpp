@@ -90,7 +90,7 @@ template <scalar Scalar>
   const Scalar by_path = select(thick, Scalar(0.0), Scalar(1.0));
 
   const auto thin = bracket < zero;
-  const Scalar per_mass(1.0 / hypothesis.mass);
+  const Scalar per_mass = Scalar(1.0 / hypothesis.mass);
   return {select(thin, zero, Scalar(xi * bracket)), select(thin, zero, Scalar(xi * (d_log_xi * bracket + d_bracket) * per_mass)),
           select(thin, zero, Scalar(xi_normal * (bracket + by_path)))};
 }

@@ -17,9 +17,9 @@ struct disjoint_buffers {
   std::vector<double> score;
 };
 
-/// Appends the best candidates that share no cluster with each other or with what is used already, and marks their clusters as used.
-/// Best: smallest chi2 - gain x clusters.
-inline void select_disjoint(const std::vector<candidate>& found, std::span<const space_point> points, double gain, std::vector<char>& cluster_used,
+/// Appends the best candidates that share at most `max_shared` clusters with better ones, taken now or before, and marks their clusters as used.
+/// Best: smallest chi2 - gain x clusters. Two true tracks cross the same channel of a plane now and then; one track found twice shares most of them.
+inline void select_disjoint(const std::vector<candidate>& found, std::span<const space_point> points, double gain, int max_shared, std::vector<char>& cluster_used,
                             std::vector<candidate>& selected, disjoint_buffers& work) {
   work.order.clear();
   work.score.clear();
@@ -35,9 +35,9 @@ inline void select_disjoint(const std::vector<candidate>& found, std::span<const
       for (const int cluster : points[static_cast<std::size_t>(point)].clusters) action(cluster_used[static_cast<std::size_t>(cluster)]);
   };
   for (const std::size_t i : work.order) {
-    bool free = true;
-    each_cluster(found[i], [&](char used) { free = free && !used; });
-    if (!free) continue;
+    int shared = 0;
+    each_cluster(found[i], [&](char used) { shared += used; });
+    if (shared > max_shared) continue;
     each_cluster(found[i], [](char& used) { used = 1; });
     selected.push_back(found[i]);
   }

@@ -21,7 +21,8 @@ namespace scifi {
 /// Three stations give a hypothesis: the chord from the second to the third point is turned against the one from the first to the second by
 /// w (z3 - z1)/2 modulo a turn, and their lengths must agree; each full turn is a hypothesis of its own, which the unequal distances of the stations tell
 /// apart. The arc fit predicts the next station, only points inside its gate are followed. All stations first, then one less, down to
-/// `min_stations`, each time from points still free; candidates that compete for a cluster are ranked by chi2 - gain x clusters.
+/// `min_stations`, each with tight cuts and then with wide ones, from points still free; candidates that compete for clusters are ranked
+/// by chi2 - gain x clusters.
 class track_finder {
  public:
   template <class Scattering>
@@ -47,8 +48,10 @@ class track_finder {
     }
     combination_search search(setting_, points, work.search);
     for (int size = static_cast<int>(setting_.stations.size()); size >= std::max(3, setting_.options.min_stations); --size) {
-      search(size);
-      select_disjoint(work.search.found, points, setting_.options.cluster_gain, work.search.cluster_used, candidates, work.disjoint);
+      for (const bool tight : {true, false}) {
+        search(size, tight);
+        select_disjoint(work.search.found, points, setting_.options.cluster_gain, setting_.options.max_shared_clusters, work.search.cluster_used, candidates, work.disjoint);
+      }
     }
     return search.complete();
   }

@@ -1,22 +1,36 @@
 // SPDX-License-Identifier: MPL-2.0
 #pragma once
 
+#include <algorithm>
+#include <cmath>
+
 namespace scifi {
 
 /// What pattern recognition may assume and where it cuts.
 struct track_finder_options {
   double field = 0.0;              ///< Bz in the tracker frame, (MeV/c)/(e mm); zero: straight tracks
-  double line_momentum = 200.0;    ///< MeV/c, assumed for straight tracks
+  double line_momentum = 200.0;    ///< MeV/c along z, assumed for straight tracks
   int line_charge = 1;             ///< sign, assumed for straight tracks
   int min_stations = 4;            ///< of a candidate
   double largest_slope = 0.6;      ///< pt/pz
   double smallest_pz = 50.0;       ///< MeV/c
-  double gate = 30.0;              ///< largest squared distance of a point from its prediction, two degrees of freedom (p = 3e-7)
-  double chi2_per_ndf = 12.0;      ///< largest of a candidate
+  double tight_gate = 14.0;        ///< largest squared distance of a point from its prediction, two degrees of freedom (p = 9e-4) ...
+  double tight_chi2_per_ndf = 3.5; ///< ... and largest chi2 of a candidate, in the first search, which clears most points away
+  double gate = 30.0;              ///< the same (p = 3e-7) ...
+  double chi2_per_ndf = 12.0;      ///< ... in the second search, for tracks that scattered hard
   double cluster_gain = 10.0;      ///< chi2 that one cluster more is worth when candidates compete
   double typical_q_over_pz = 0.006;  ///< 1/(MeV/c): centre, with either sign, of the prior of q/pz ...
   double spread_q_over_pz = 0.004;   ///< ... and its width; matters only where the field hardly bends the track
+  int max_shared_clusters = 3;     ///< with better candidates: two tracks may cross the same channel
   int max_arc_fits = 100000;       ///< bound on the search in one tracker
 };
+
+/// Momentum (MeV/c) to be expected of a track with curvature w (rad/mm) and squared slope t2: bounded, so that an unbent track is not taken for
+/// one that does not scatter; the momentum given where there is no field.
+[[nodiscard]] inline double expected_momentum(const track_finder_options& o, double w, double t2) {
+  if (o.field == 0.0) return o.line_momentum;
+  const double least = 0.5 * (o.typical_q_over_pz - 0.75 * o.spread_q_over_pz);
+  return std::sqrt(1.0 + t2) / std::clamp(std::abs(w / o.field), least, 1.0 / o.smallest_pz);
+}
 
 }  // namespace scifi

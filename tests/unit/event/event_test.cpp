@@ -64,7 +64,6 @@ TEST_CASE("an event is a value: a copy is its own", "[event]") {
 
 TEST_CASE("flags start down and compare by value", "[event]") {
   scifi::event_flags a;
-  CHECK_FALSE(a.too_many_digits);
   CHECK_FALSE(a.combinations_limited);
   CHECK_FALSE(a.fit_failed);
   scifi::event_flags b;

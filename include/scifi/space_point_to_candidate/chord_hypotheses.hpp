@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+#include <scifi/core/constants.hpp>
+#include <scifi/core/inline_vector.hpp>
+#include <scifi/space_point_to_candidate/arc_fit.hpp>
+#include <scifi/space_point_to_candidate/station_scattering.hpp>
+#include <scifi/space_point_to_candidate/track_finder_options.hpp>
+
+namespace scifi {
+
+/// A curvature to start a fit from, and how many Gauss-Newton steps bring it home.
+struct curvature_hypothesis {
+  double curvature = 0.0;  ///< rad/mm
+  int iterations = 1;
+};
+
+/// The curvatures that three points at given z allow.
+///
+/// On a helix the chord over dz is slope x sin(w dz/2)/(w/2), turned by half the angle. So the second chord is turned against the first by w (z3 - z1)/2, modulo
+/// a turn, and the ratio of their lengths must be that of the sines: each whole turn is a hypothesis that the lengths keep or reject. Where a chord is short
+/// against its errors the angle says nothing, and the typical curvature of either sign is tried.
+class chord_hypotheses {
+ public:
+  using list = inline_vector<curvature_hypothesis, 8>;
+
+  /// `first` and `middle` are the indices of the first two stations, for their scattering; `gate` is the largest squared deviation of the length.
+  chord_hypotheses(const track_finder_options& options, const station_scattering& scattering, std::size_t first, std::size_t middle, double z1, double z2, double z3, double gate)
+      : options_(options), scattering_(scattering), middle_(middle), step1_(z2 - z1), step2_(z3 - z2), gate_(gate), largest_(std::abs(options.field) / options.smallest_pz) {
+    const double slowest = 1.0 / (options.typical_q_over_pz + options.spread_q_over_pz);
+    widest_scatter_ = scattering.slope_variance(middle, slowest, 0.0) * square(step2_);
+    angle_scatter_ = scattering.slope_variance(first, expected_momentum(options, 0.0, 0.0), 0.0) * square(step1_ + step2_);
+    shortest_ratio_ = longest_ratio_ = step2_ / step1_;
+    constexpr int steps = 32;
+    for (int i = 1; i <= steps; ++i) {
+      const double ratio = std::abs(ratio_at(largest_ * i / steps));
+      shortest_ratio_ = std::min(shortest_ratio_, ratio);
+      longest_ratio_ = std::max(longest_ratio_, ratio);
+    }
+  }
+
+  [[nodiscard]] list operator()(const arc_point& a, const arc_point& b, const arc_point& c) const {
+    list out;
+    const planar<double> first = b.position - a.position;
+    const planar<double> second = c.position - b.position;
+    const double length1 = std::sqrt(norm(first));
+    const double length2 = std::sqrt(norm(second));
+    // Before any angle is taken: a length that no curvature explains.
+    const double slack = std::sqrt(gate_ * (blur(a, b, c, longest_ratio_) + widest_scatter_));
+    if (length2 < shortest_ratio_ * length1 - slack || length2 > longest_ratio_ * length1 + slack) return out;
+
+    const double half = 0.5 * (step1_ + step2_);
+    const planar<double> product = conjugate(first) * second;
+    const double angle = -std::atan2(product.y, product.x);  // w half, modulo a turn
+    const double full_turn = 2.0 * constants::pi;
+    const int turns = static_cast<int>(std::ceil(largest_ * half / full_turn));
+    for (int n = -turns; n <= turns; ++n) {
+      const double w = (angle + n * full_turn) / half;
+      if (std::abs(w) > largest_) continue;
+      const double ratio = ratio_at(w);
+      const double scatter = scattering_.slope_variance(middle_, expected_momentum(options_, w, 0.0), 0.0) * square(step2_);
+      if (square(length2 - ratio * length1) < gate_ * (blur(a, b, c, ratio) + scatter)) out.push_back({w, 1});
+    }
+    constexpr double clear = 16.0;  // a chord of four standard deviations has a direction
+    const double error = a.variance + b.variance + angle_scatter_;
+    if (norm(first) < clear * error || norm(second) < clear * error)
+      for (const double sign : {1.0, -1.0}) out.push_back({sign * options_.typical_q_over_pz * options_.field, 3});
+    return out;
+  }
+
+ private:
+  /// Variance of (second length - ratio x first length) from the errors of the points.
+  [[nodiscard]] static double blur(const arc_point& a, const arc_point& b, const arc_point& c, double ratio) {
+    return a.variance * square(ratio) + b.variance * square(1.0 + ratio) + c.variance;
+  }
+  /// Length of the chord over dz per unit of slope, signed.
+  [[nodiscard]] static double chord(double w, double dz) {
+    const double x = 0.5 * w * dz;
+    return std::abs(x) < 1e-6 ? dz : dz * std::sin(x) / x;
+  }
+  [[nodiscard]] double ratio_at(double w) const { return chord(w, step2_) / chord(w, step1_); }
+
+  const track_finder_options& options_;
+  const station_scattering& scattering_;
+  std::size_t middle_;
+  double step1_, step2_;
+  double gate_;
+  double largest_;         // curvature
+  double widest_scatter_;  // mm^2, of the second chord
+  double angle_scatter_;   // mm^2
+  double shortest_ratio_, longest_ratio_;
+};
+
+}  // namespace scifi
