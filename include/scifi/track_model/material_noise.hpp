@@ -144,7 +144,7 @@ struct line_material_noise {
     const Scalar before = variance(step.start);
     const Scalar during = variance(step.gap);
     const Scalar after = variance(step.finish);
-    const Scalar dz(step.dz);
+    const Scalar dz = Scalar(step.dz);
     // Per unit of slope covariance: position-position, position-slope, slope-slope.
     const Scalar slope_slope = before + during + after;
     const Scalar position_slope = dz * (before + Scalar(0.5) * during);

@@ -20,8 +20,7 @@
 #include "support/catch.hpp"
 
 using namespace scifi;
-using s = slope_state;
-using h = helix_state;
+using ss = slope_state;
 
 namespace {
 
@@ -58,11 +57,11 @@ TEST_CASE("the helix is the path that the Lorentz force integrates to", "[track_
         test::carried_to(particle_of(start, travel, charge), dz, [field](const vector<double, 3>&) { return vector<double, 3>(0.0, 0.0, field); });
     // At most a few hundred steps, each within the tolerance of numbers of order 100, amplified by lever arms of less than 10.
     const double tolerance = 1e4 * test::lorentz_tolerance;
-    CHECK(std::abs(end.state[s::x] - reference.position[0]) < tolerance * 100.0);
-    CHECK(std::abs(end.state[s::y] - reference.position[1]) < tolerance * 100.0);
-    CHECK(std::abs(end.state[s::tx] - reference.momentum[0] / reference.momentum[2]) < tolerance);
-    CHECK(std::abs(end.state[s::ty] - reference.momentum[1] / reference.momentum[2]) < tolerance);
-    CHECK(std::abs(end.state[s::q_over_pz] * reference.momentum[2] / charge - 1.0) < tolerance);
+    CHECK(std::abs(end.state[ss::x] - reference.position[0]) < tolerance * 100.0);
+    CHECK(std::abs(end.state[ss::y] - reference.position[1]) < tolerance * 100.0);
+    CHECK(std::abs(end.state[ss::tx] - reference.momentum[0] / reference.momentum[2]) < tolerance);
+    CHECK(std::abs(end.state[ss::ty] - reference.momentum[1] / reference.momentum[2]) < tolerance);
+    CHECK(std::abs(end.state[ss::q_over_pz] * reference.momentum[2] / charge - 1.0) < tolerance);
   });
 }
 
@@ -85,9 +84,9 @@ TEST_CASE("the Jacobian of the helix agrees with finite differences", "[track_mo
     // Only q/pz enters non-linearly. A central difference of step u errs by u^2/6 of the third derivative, here at most
     // |dz| |t| (field dz)^3 for positions and |t| (field dz)^3 for slopes, plus rounding of the end state over u.
     const double step = 1e-2;
-    const double per_unit = std::abs(field * dz) * slope_units[s::q_over_pz];
-    const double slope = std::hypot(start[s::tx], start[s::ty]);
-    const double third = per_unit * per_unit * per_unit * slope * std::max(std::abs(dz) / slope_units[s::x], 1.0 / slope_units[s::tx]);
+    const double per_unit = std::abs(field * dz) * slope_units[ss::q_over_pz];
+    const double slope = std::hypot(start[ss::tx], start[ss::ty]);
+    const double third = per_unit * per_unit * per_unit * slope * std::max(std::abs(dz) / slope_units[ss::x], 1.0 / slope_units[ss::tx]);
     const double largest = 50.0 + std::abs(dz) * slope;
     const double tolerance = step * step / 6.0 * third + 4.0 * eps * largest / step;
     CHECK(laws::propagator_jacobian_deviation(helix_propagator{field}, start, dz, step, slope_units) < tolerance);
@@ -118,38 +117,38 @@ TEST_CASE("the field turned round and the opposite charge together change nothin
   for_each_flight([](int, int, double field, double dz, const vector<double, 5>& start) {
     const auto end = helix_propagator{field}.propagate(start, dz).state;
     vector<double, 5> conjugate = start;
-    conjugate[s::q_over_pz] = -start[s::q_over_pz];
+    conjugate[ss::q_over_pz] = -start[ss::q_over_pz];
     const auto both = helix_propagator{-field}.propagate(conjugate, dz).state;
     CHECK(both.head<4>() == end.head<4>());
-    CHECK(both[s::q_over_pz] == -end[s::q_over_pz]);
+    CHECK(both[ss::q_over_pz] == -end[ss::q_over_pz]);
 
     // Mirrored about the x axis the other charge flies in the same field.
-    conjugate[s::y] = -start[s::y];
-    conjugate[s::ty] = -start[s::ty];
+    conjugate[ss::y] = -start[ss::y];
+    conjugate[ss::ty] = -start[ss::ty];
     const auto mirrored = helix_propagator{field}.propagate(conjugate, dz).state;
-    CHECK(mirrored[s::x] == end[s::x]);
-    CHECK(mirrored[s::tx] == end[s::tx]);
-    CHECK(mirrored[s::y] == -end[s::y]);
-    CHECK(mirrored[s::ty] == -end[s::ty]);
+    CHECK(mirrored[ss::x] == end[ss::x]);
+    CHECK(mirrored[ss::tx] == end[ss::tx]);
+    CHECK(mirrored[ss::y] == -end[ss::y]);
+    CHECK(mirrored[ss::ty] == -end[ss::ty]);
   });
 }
 
 TEST_CASE("a positive particle along the field turns clockwise seen against it", "[track_model]") {
   // F = q v x B: with v along x and B along z the force points along -y.
   const vector<double, 5> start(0.0, 0.1, 0.0, 0.0, 1.0 / 200.0);
-  CHECK(helix_propagator{4.0 * units::tesla}.propagate(start, 10.0).state[s::y] < 0.0);
+  CHECK(helix_propagator{4.0 * units::tesla}.propagate(start, 10.0).state[ss::y] < 0.0);
 }
 
 TEST_CASE("the radius is pt over charge times field and the momentum keeps its size", "[track_model]") {
   for_each_flight([](int, int travel, double field, double dz, const vector<double, 5>& start) {
     const helix_propagator helix{field};
-    const double pt = std::hypot(start[s::tx], start[s::ty]) / std::abs(start[s::q_over_pz]);
+    const double pt = std::hypot(start[ss::tx], start[ss::ty]) / std::abs(start[ss::q_over_pz]);
     // Circle through three points of the path, a third of a turn apart: radius = product of the sides over four times the area.
-    const double third = 2.0 * constants::pi / 3.0 / std::abs(field * start[s::q_over_pz]);
+    const double third = 2.0 * constants::pi / 3.0 / std::abs(field * start[ss::q_over_pz]);
     std::array<vector<double, 2>, 3> point;
     for (std::size_t i = 0; i < 3; ++i) {
       const auto at = helix.propagate(start, third * static_cast<double>(i)).state;
-      point[i] = {at[s::x], at[s::y]};
+      point[i] = {at[ss::x], at[ss::y]};
     }
     const vector<double, 2> a = point[1] - point[0], b = point[2] - point[0], c = point[2] - point[1];
     const double radius = a.norm() * b.norm() * c.norm() / (2.0 * std::abs(a[0] * b[1] - a[1] * b[0]));
@@ -172,16 +171,16 @@ TEST_CASE("the helix becomes the straight line smoothly as the curvature goes", 
     const auto end = helix_propagator{field}.propagate(start, dz).state;
     // To first order x grows by dz theta ty / 2, y falls by dz theta tx / 2; the rest is of second order.
     const double second = dz * theta * theta / 6.0 * 0.37 + 4.0 * eps * 300.0;
-    CHECK(std::abs(end[s::x] - straight[s::x] - 0.5 * dz * theta * -0.2) <= second);
-    CHECK(std::abs(end[s::y] - straight[s::y] + 0.5 * dz * theta * 0.3) <= second);
+    CHECK(std::abs(end[ss::x] - straight[ss::x] - 0.5 * dz * theta * -0.2) <= second);
+    CHECK(std::abs(end[ss::y] - straight[ss::y] + 0.5 * dz * theta * 0.3) <= second);
   }
   // No curvature at all: the column of q/pz is the slope of that first order, in a full field.
-  start[s::q_over_pz] = 0.0;
+  start[ss::q_over_pz] = 0.0;
   const auto flat = helix_propagator{1.2}.propagate(start, dz);
   CHECK(flat.state.allFinite());
-  CHECK(flat.jacobian(s::x, s::q_over_pz) == Approx(0.5 * dz * 1.2 * dz * -0.2).epsilon(1e-14));
-  CHECK(flat.jacobian(s::y, s::q_over_pz) == Approx(-0.5 * dz * 1.2 * dz * 0.3).epsilon(1e-14));
-  CHECK(flat.jacobian(s::tx, s::q_over_pz) == Approx(1.2 * dz * -0.2).epsilon(1e-14));
+  CHECK(flat.jacobian(ss::x, ss::q_over_pz) == Approx(0.5 * dz * 1.2 * dz * -0.2).epsilon(1e-14));
+  CHECK(flat.jacobian(ss::y, ss::q_over_pz) == Approx(-0.5 * dz * 1.2 * dz * 0.3).epsilon(1e-14));
+  CHECK(flat.jacobian(ss::tx, ss::q_over_pz) == Approx(1.2 * dz * -0.2).epsilon(1e-14));
 }
 
 TEST_CASE("state and Jacobian are continuous where the series hands over to the closed form", "[track_model]") {
@@ -219,13 +218,13 @@ TEST_CASE("in single precision the helix errs by its rounding", "[track_model]")
     const auto got = helix_propagator{field}.propagate(rounded, dz);
     // The angle is rounded by |theta| eps, a lever of the whole path; all else is a handful of roundings of the terms.
     const double single = std::numeric_limits<float>::epsilon();
-    const double theta = std::abs(field * dz * start[s::q_over_pz]);
-    const double slope = std::hypot(start[s::tx], start[s::ty]);
+    const double theta = std::abs(field * dz * start[ss::q_over_pz]);
+    const double slope = std::hypot(start[ss::tx], start[ss::ty]);
     const double position = single * (40.0 + std::abs(dz) * slope * (8.0 + 2.0 * theta));
-    CHECK(std::abs(static_cast<double>(got.state[s::x]) - exact.state[s::x]) < position);
-    CHECK(std::abs(static_cast<double>(got.state[s::y]) - exact.state[s::y]) < position);
-    CHECK(std::abs(static_cast<double>(got.state[s::tx]) - exact.state[s::tx]) < single * slope * (4.0 + 2.0 * theta));
+    CHECK(std::abs(static_cast<double>(got.state[ss::x]) - exact.state[ss::x]) < position);
+    CHECK(std::abs(static_cast<double>(got.state[ss::y]) - exact.state[ss::y]) < position);
+    CHECK(std::abs(static_cast<double>(got.state[ss::tx]) - exact.state[ss::tx]) < single * slope * (4.0 + 2.0 * theta));
     const double column = single * std::abs(field * dz * dz) * slope * (16.0 + 4.0 * theta);
-    CHECK(std::abs(static_cast<double>(got.jacobian(s::x, s::q_over_pz)) - exact.jacobian(s::x, s::q_over_pz)) < column);
+    CHECK(std::abs(static_cast<double>(got.jacobian(ss::x, ss::q_over_pz)) - exact.jacobian(ss::x, ss::q_over_pz)) < column);
   });
 }

@@ -10,17 +10,17 @@
 #include "laws/propagator_laws.hpp"
 #include "support/catch.hpp"
 
-using s = scifi::line_state;
+using ss = scifi::line_state;
 using scifi::line_propagator;
 
 TEST_CASE("a straight track moves by its slopes and keeps them", "[track_model]") {
   const scifi::vector<double, 4> start(1.0, 0.25, -2.0, -0.5);
   for (const double dz : {-200.0, 0.0, 8.0}) {
     const auto end = scifi::kalman::propagate(line_propagator{}, start, dz);
-    CHECK(end.state[s::x] == 1.0 + 0.25 * dz);
-    CHECK(end.state[s::y] == -2.0 - 0.5 * dz);
-    CHECK(end.state[s::tx] == 0.25);
-    CHECK(end.state[s::ty] == -0.5);
+    CHECK(end.state[ss::x] == 1.0 + 0.25 * dz);
+    CHECK(end.state[ss::y] == -2.0 - 0.5 * dz);
+    CHECK(end.state[ss::tx] == 0.25);
+    CHECK(end.state[ss::ty] == -0.5);
   }
 }
 
