@@ -24,20 +24,25 @@ struct cluster_finder {
   /// Sorts `digits` by id and appends the clusters, ordered by tracker, station, plane and channel. `first_digit` refers to the sorted order.
   /// Digits of planes that `where` does not have are skipped.
   void operator()(const detector& where, std::vector<digit>& digits, std::vector<cluster>& clusters) const {
-    std::sort(digits.begin(), digits.end(), [](const digit& a, const digit& b) { return tspc(a.id) < tspc(b.id); });
+    std::sort(digits.begin(), digits.end(), [](const digit& a, const digit& b) { return a.id < b.id; });
     for (std::size_t i = 0; i < digits.size();) {
       if (digits[i].npe < min_npe) {
         ++i;
         continue;
       }
       std::size_t end = i + 1;
-      while (end < digits.size() && digits[end].npe >= min_npe && tspc(digits[end].id) == tspc(digits[end - 1].id) + 1) ++end;
+      while (end < digits.size() && digits[end].npe >= min_npe && next_to(digits[end - 1].id, digits[end].id)) ++end;
       if (const plane* p = where.find_plane(digits[i].id)) cut(*p, digits, i, end, clusters);
       i = end;
     }
   }
 
  private:
+  [[nodiscard]] static bool next_to(channel_id lower, const channel_id& upper) {
+    ++lower.channel;
+    return lower == upper;
+  }
+
   /// Clusters of the run [begin, end): the brightest channel takes its brighter neighbour, what is left on either side is cut again.
   void cut(const plane& p, const std::vector<digit>& digits, std::size_t begin, std::size_t end, std::vector<cluster>& clusters) const {
     if (begin == end) return;

@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: MPL-2.0
+#include <scifi/digit_to_cluster/cluster_finder.hpp>
+
+#include <algorithm>
+#include <vector>
+
+#include <scifi/geometry/mice.hpp>
+
+#include "support/catch.hpp"
+
+using namespace scifi;
+
+namespace {
+
+const detector where = mice::trackers();
+
+digit at(int channel, double npe, int plane = 0, int station = 1, int tracker = 0) { return {{tracker, station, plane, channel}, npe}; }
+
+/// Clusters of neighbouring channels from 50 on with this light.
+std::vector<cluster> of_run(const std::vector<double>& light) {
+  std::vector<digit> digits;
+  for (std::size_t i = 0; i < light.size(); ++i) digits.push_back(at(50 + static_cast<int>(i), light[i]));
+  std::vector<cluster> out;
+  cluster_finder{}(where, digits, out);
+  return out;
+}
+
+/// Channels of the clusters, as means.
+std::vector<double> channels(const std::vector<cluster>& clusters) {
+  std::vector<double> out;
+  for (const cluster& c : clusters) out.push_back(c.channel);
+  return out;
+}
+
+}  // namespace
+
+TEST_CASE("one channel is a cluster at its middle", "[digit_to_cluster]") {
+  std::vector<digit> digits{at(100, 8.0, 2)};
+  std::vector<cluster> out;
+  cluster_finder{}(where, digits, out);
+  REQUIRE(out.size() == 1);
+  const cluster& c = out[0];
+  CHECK(c.tracker == 0);
+  CHECK(c.station == 1);
+  CHECK(c.plane == 2);
+  CHECK(c.channel == 100.0);
+  CHECK(c.npe == 8.0);
+  CHECK(c.alpha == Approx(5.5 * 1.4945).epsilon(1e-12));  // central channel 105.5
+  CHECK(c.variance == fibre_resolution{}.variance(*where.find_plane({0, 1, 2, 0}), {1, 8.0, 8.0}));
+  CHECK(c.first_digit == 0);
+  CHECK(c.size == 1);
+}
+
+TEST_CASE("two neighbours are one cluster at their unweighted mean", "[digit_to_cluster]") {
+  const std::vector<cluster> out = of_run({3.0, 17.0});
+  REQUIRE(out.size() == 1);
+  CHECK(out[0].channel == 50.5);
+  CHECK(out[0].npe == 20.0);
+  CHECK(out[0].size == 2);
+  CHECK(out[0].variance == fibre_resolution{}.variance(*where.find_plane({0, 1, 0, 0}), {2, 3.0, 20.0}));
+}
+
+TEST_CASE("a longer run is cut from its brightest channel outwards into pairs and singles", "[digit_to_cluster]") {
+  CHECK(channels(of_run({5.0, 9.0, 7.0})) == std::vector<double>{50.0, 51.5});
+  CHECK(channels(of_run({7.0, 9.0, 5.0})) == std::vector<double>{50.5, 52.0});
+  CHECK(channels(of_run({9.0, 5.0, 7.0})) == std::vector<double>{50.5, 52.0});
+  CHECK(channels(of_run({5.0, 7.0, 9.0})) == std::vector<double>{50.0, 51.5});
+  CHECK(channels(of_run({4.0, 9.0, 8.0, 5.0})) == std::vector<double>{50.0, 51.5, 53.0});
+  CHECK(channels(of_run({9.0, 8.0, 6.0, 10.0})) == std::vector<double>{50.5, 52.5});
+  CHECK(channels(of_run({9.0, 8.0, 3.0, 8.0, 10.0})) == std::vector<double>{50.5, 52.0, 53.5});
+  CHECK(channels(of_run({3.0, 4.0, 9.0, 5.0, 3.0})) == std::vector<double>{50.5, 52.5, 54.0});
+}
+
+TEST_CASE("every digit of a run is in exactly one cluster, with its light", "[digit_to_cluster]") {
+  for (std::size_t n = 1; n <= 9; ++n) {
+    std::vector<double> light;
+    double sum = 0.0;
+    for (std::size_t i = 0; i < n; ++i) light.push_back(2.0 + static_cast<double>(i * 7 % 5));
+    for (const double x : light) sum += x;
+    const std::vector<cluster> out = of_run(light);
+    int next = 0;
+    double found = 0.0;
+    for (const cluster& c : out) {
+      CHECK(c.first_digit == next);
+      CHECK((c.size == 1 || c.size == 2));
+      next += c.size;
+      found += c.npe;
+    }
+    CHECK(next == static_cast<int>(n));
+    CHECK(found == Approx(sum));
+  }
+}
+
+TEST_CASE("digits are sorted, and clusters refer to the sorted order", "[digit_to_cluster]") {
+  std::vector<digit> digits{at(10, 5.0, 1, 2, 1), at(31, 6.0, 0, 1, 0), at(4, 5.0, 2, 5, 0), at(30, 5.0, 0, 1, 0), at(10, 5.0, 0, 2, 1), at(12, 5.0, 1, 2, 1)};
+  std::vector<cluster> out;
+  cluster_finder{}(where, digits, out);
+  CHECK(std::is_sorted(digits.begin(), digits.end(), [](const digit& a, const digit& b) { return a.id < b.id; }));
+  REQUIRE(out.size() == 5);
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    const channel_id& first = digits[static_cast<std::size_t>(out[i].first_digit)].id;
+    CHECK(first.tracker == out[i].tracker);
+    CHECK(first.station == out[i].station);
+    CHECK(first.plane == out[i].plane);
+    if (i == 0) continue;
+    const channel_id& before = digits[static_cast<std::size_t>(out[i - 1].first_digit)].id;
+    CHECK(before < first);
+  }
+  CHECK(out[0].channel == 30.5);
+}
+
+TEST_CASE("digits below the threshold are left out and divide a run", "[digit_to_cluster]") {
+  CHECK(channels(of_run({5.0, 1.9, 5.0})) == std::vector<double>{50.0, 52.0});
+  CHECK(channels(of_run({1.9, 2.0})) == std::vector<double>{51.0});
+  cluster_finder<> high;
+  high.min_npe = 6.0;
+  std::vector<digit> digits{at(50, 5.9), at(51, 6.0)};
+  std::vector<cluster> out;
+  high(where, digits, out);
+  REQUIRE(out.size() == 1);
+  CHECK(out[0].channel == 51.0);
+  CHECK(out[0].first_digit == 1);
+  CHECK(out[0].size == 1);
+}
+
+TEST_CASE("digits of planes that do not exist are skipped", "[digit_to_cluster]") {
+  std::vector<digit> digits{at(50, 5.0, 3), at(50, 5.0, 0, 6), at(50, 5.0, 0, 1, 7), at(50, 5.0, -1), at(60, 5.0)};
+  std::vector<cluster> out;
+  cluster_finder{}(where, digits, out);
+  REQUIRE(out.size() == 1);
+  CHECK(out[0].channel == 60.0);
+}
+
+TEST_CASE("clusters are appended, and nothing comes of nothing", "[digit_to_cluster]") {
+  std::vector<digit> none;
+  std::vector<cluster> out(1);
+  cluster_finder{}(where, none, out);
+  CHECK(out.size() == 1);
+  std::vector<digit> one{at(50, 5.0)};
+  cluster_finder{}(where, one, out);
+  CHECK(out.size() == 2);
+}
+
+TEST_CASE("planes may have any number of channels, and the last of one is no neighbour of the first of the next", "[digit_to_cluster]") {
+  plane strips;
+  strips.channels = 2560;
+  strips.channel_width = 0.08;
+  tracker telescope;
+  telescope.stations = {station{1, {}, {strips, strips}}};
+  const detector silicon{{telescope}};
+  std::vector<digit> digits{at(1000, 5.0, 0), at(999, 5.0, 0), at(1001, 5.0, 1), at(0, 5.0, 1), at(2559, 5.0, 0), at(2000, 5.0, 0)};
+  std::vector<cluster> out;
+  cluster_finder<uniform_resolution>{}(silicon, digits, out);
+  CHECK(channels(out) == std::vector<double>{999.5, 2000.0, 2559.0, 0.0, 1001.0});
+}
+
+TEST_CASE("the resolution can be replaced", "[digit_to_cluster]") {
+  struct fixed {
+    double variance(const plane&, const cluster_light& light) const { return light.size + light.least + 100.0 * light.total; }
+  };
+  std::vector<digit> digits{at(50, 5.0), at(51, 3.0)};
+  std::vector<cluster> out;
+  cluster_finder{2.0, fixed{}}(where, digits, out);
+  REQUIRE(out.size() == 1);
+  CHECK(out[0].variance == 2.0 + 3.0 + 800.0);
+}
