@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <utility>
 #include <vector>
@@ -56,6 +57,10 @@ class reconstruction {
       for (std::size_t i = first_candidate; i < e.candidates.size(); ++i) {
         s.fit_track(e.candidates[i], static_cast<int>(i), e.space_points, e.clusters, e.tracks, e.track_points, work.fit);
         e.flags.fit_failed |= !e.tracks.back().status.ok();
+        if (left_before_reference(e.tracks.back(), s.where)) {
+          e.track_points.resize(static_cast<std::size_t>(e.tracks.back().first_point));
+          e.tracks.pop_back();
+        }
       }
     }
   }
@@ -69,6 +74,16 @@ class reconstruction {
   [[nodiscard]] const detector& where() const { return where_; }
 
  private:
+  /// A particle that entered at the far end and left through the side never was at the reference surface, and a state there would be an invention.
+  /// Its candidate stays in the event.
+  [[nodiscard]] static bool left_before_reference(const track& t, const tracker& where) {
+    if (!t.status.ok()) return false;
+    const auto& at = t.reference;
+    const double radius = std::hypot(at.mean[momentum_state::x], at.mean[momentum_state::y]);
+    const double error = std::sqrt(std::max(at.covariance(momentum_state::x, momentum_state::x), at.covariance(momentum_state::y, momentum_state::y)));
+    return radius > where.active_radius + 3.0 * error;
+  }
+
   detector where_;
   ClusterFinder find_clusters_;
   SpacePointFinder find_points_;

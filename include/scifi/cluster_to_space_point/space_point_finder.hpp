@@ -29,7 +29,7 @@ struct space_point_finder {
   double slope_spread = 0.25;          ///< typical slope of a track, for the distance between the planes
   cluster_use use = cluster_use::once;
   bool doublets = true;
-  std::size_t max_triplets_per_station = 20000;
+  std::size_t max_points_per_station = 20000;  ///< triplets, and likewise doublets, that are looked at
 
   /// Working memory, to be handed in again.
   struct buffers {
@@ -39,7 +39,7 @@ struct space_point_finder {
   };
 
   /// Appends the space points of one tracker, ordered by station. `clusters` as the cluster finder leaves them. Returns false when the
-  /// bound on triplets was reached in a station.
+  /// bound on points was reached in a station.
   bool operator()(const tracker& where, std::span<const cluster> clusters, std::vector<space_point>& points, buffers& work) const {
     bool complete = true;
     work.used.assign(clusters.size(), 0);
@@ -51,7 +51,7 @@ struct space_point_finder {
         return std::pair{static_cast<int>(first - clusters.begin()), static_cast<int>(last - clusters.begin())};
       };
       complete = triplets(where, s, clusters, range, points, work) && complete;
-      if (doublets) make_doublets(where, s, clusters, range, points, work);
+      if (doublets) complete = make_doublets(where, s, clusters, range, points, work) && complete;
     }
     return complete;
   }
@@ -73,7 +73,7 @@ struct space_point_finder {
         auto u = std::upper_bound(clusters.begin() + u0, clusters.begin() + u1, rest - channel_sum_tolerance,
                                   [](double key, const cluster& c) { return key < c.channel; });
         for (; u != clusters.begin() + u1 && u->channel < rest + channel_sum_tolerance; ++u) {
-          if (work.found.size() == max_triplets_per_station) {
+          if (work.found.size() == max_points_per_station) {
             complete = false;
             break;
           }
@@ -94,7 +94,8 @@ struct space_point_finder {
   }
 
   template <class Range>
-  void make_doublets(const tracker& where, const station& s, std::span<const cluster> clusters, const Range& range, std::vector<space_point>& points, buffers& work) const {
+  bool make_doublets(const tracker& where, const station& s, std::span<const cluster> clusters, const Range& range, std::vector<space_point>& points, buffers& work) const {
+    bool complete = true;
     work.found.clear();
     const int planes = static_cast<int>(s.planes.size());
     for (int a = 0; a < planes; ++a) {
@@ -103,8 +104,10 @@ struct space_point_finder {
         const auto [b0, b1] = range(b);
         for (int i = a0; i < a1; ++i)
           for (int j = b0; j < b1; ++j)
-            if (!work.used[index(i)] && !work.used[index(j)] && work.found.size() < max_triplets_per_station)
-              add(where, s, clusters, std::array{i, j}, work.found);
+            if (!work.used[index(i)] && !work.used[index(j)]) {
+              if (work.found.size() < max_points_per_station) add(where, s, clusters, std::array{i, j}, work.found);
+              else complete = false;
+            }
       }
     }
     sort_into(work, [](const space_point& a, const space_point& b) { return a.npe > b.npe; });
@@ -114,6 +117,7 @@ struct space_point_finder {
       points.push_back(p);
       if (use == cluster_use::once) mark(p, work);
     }
+    return complete;
   }
 
   template <std::size_t N>
@@ -122,10 +126,9 @@ struct space_point_finder {
     for (std::size_t i = 0; i < N; ++i) members[i] = &clusters[index(chosen[i])];
     const crossing_point c = cross(s, members, slope_spread);
     if (!c.defined) return;
-    const double radius = where.fiducial_radius + s.planes.front().channel_width;
+    const double radius = where.active_radius + s.planes.front().channel_width;
     const vector<double, 2> from_axis = c.position - s.in_tracker.origin.head<2>();
-    // The edge of the active area is wider than the fiducial radius by about 10 mm; nothing beyond it can be real.
-    if (from_axis.norm() > radius + edge) return;
+    if (from_axis.norm() > radius) return;
     space_point p;
     p.tracker = where.id;
     p.station = s.id;
@@ -154,8 +157,6 @@ struct space_point_finder {
     for (const int c : p.clusters) work.used[index(c)] = 1;
   }
   [[nodiscard]] static std::size_t index(int i) { return static_cast<std::size_t>(i); }
-
-  static constexpr double edge = 10.0;  // mm: active radius 160 mm, fiducial 150 mm
 };
 
 }  // namespace scifi

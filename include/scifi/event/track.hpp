@@ -20,7 +20,7 @@ struct track_point {
   double pull = 0.0;                      ///< residual over its standard deviation; NaN without one
 };
 
-/// A fitted track.
+/// A fitted track. One that the fit puts outside the active radius at the reference surface is not kept: it never was there.
 struct track {
   int tracker = 0;
   int candidate = -1;  ///< index of what it was fitted from

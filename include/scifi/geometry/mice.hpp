@@ -53,6 +53,7 @@ inline constexpr int downstream = 1;  ///< TKD: the beam meets station 1 first a
   t.name = name;
   t.beam_direction = beam_direction;
   t.fiducial_radius = 150.0;
+  t.active_radius = 160.0;
   t.gas = materials::helium;
   for (const auto& origin : origins) t.stations.push_back(fibre_station(static_cast<int>(t.stations.size()) + 1, origin, fibre));
   return t;

@@ -16,7 +16,8 @@ struct tracker {
   int id = 0;                    ///< 0 TKU, 1 TKD
   std::string name;              ///< for messages and tables
   int beam_direction = 1;        ///< +1 when the beam travels towards +z of the tracker frame, -1 towards -z
-  double fiducial_radius = 0.0;  ///< mm; space points further from the axis of their station than this plus a channel are not built
+  double fiducial_radius = 0.0;  ///< mm, about the axis: where efficiency is quoted
+  double active_radius = 0.0;    ///< mm, about the axis of a station: nothing beyond it can be real
   material gas;                  ///< what fills the space between the stations
   std::vector<station> stations;
 };

@@ -74,6 +74,8 @@ class geometry_parser {
     t.beam_direction = from.at("beam_direction").whole_number(-1, 1);
     if (t.beam_direction == 0) from.at("beam_direction").fail("is neither 1 nor -1");
     t.fiducial_radius = (from.has("fiducial_radius") ? from : root_).at("fiducial_radius").positive();
+    // As in MICE, where planes are active to 10 mm beyond the fiducial radius.
+    t.active_radius = from.has("active_radius") ? from.at("active_radius").positive() : t.fiducial_radius + 10.0;
     t.gas = from.has("gas") ? medium(from.at("gas")) : media_.at("helium");
     const json_field stations = from.at("stations");
     if (stations.size() == 0) stations.fail("names no station");

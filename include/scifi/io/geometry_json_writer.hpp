@@ -111,6 +111,7 @@ class material_names {
                         {"name", t.name},
                         {"beam_direction", t.beam_direction},
                         {"fiducial_radius", t.fiducial_radius},
+                        {"active_radius", t.active_radius},
                         {"gas", media.name_of(t.gas)},
                         {"stations", std::move(stations)}});
   }
