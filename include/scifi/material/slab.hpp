@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MPL-2.0
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <stdexcept>
 
+#include <scifi/core/inline_vector.hpp>
 #include <scifi/material/material.hpp>
 #include <scifi/material/materials.hpp>
 
@@ -42,25 +42,21 @@ struct slab {
 template <std::size_t Capacity = 4>
 class slab_stack {
  public:
-  constexpr slab_stack() = default;
-
   /// Appends a slab at larger z. Throws std::length_error when the stack is full.
   constexpr slab_stack& add(const slab& next) {
-    if (size_ == Capacity) throw std::length_error("scifi::slab_stack: more slabs than its capacity");
-    slabs_[size_++] = next;
+    if (!slabs_.push_back(next)) throw std::length_error("scifi::slab_stack: more slabs than its capacity");
     return *this;
   }
 
-  [[nodiscard]] constexpr std::size_t size() const { return size_; }
-  [[nodiscard]] constexpr bool empty() const { return size_ == 0; }
+  [[nodiscard]] constexpr std::size_t size() const { return slabs_.size(); }
+  [[nodiscard]] constexpr bool empty() const { return slabs_.empty(); }
   [[nodiscard]] static constexpr std::size_t capacity() { return Capacity; }
   [[nodiscard]] constexpr const slab& operator[](std::size_t i) const { return slabs_[i]; }
-  [[nodiscard]] constexpr const slab* begin() const { return slabs_.data(); }
-  [[nodiscard]] constexpr const slab* end() const { return slabs_.data() + size_; }
+  [[nodiscard]] constexpr const slab* begin() const { return slabs_.begin(); }
+  [[nodiscard]] constexpr const slab* end() const { return slabs_.end(); }
 
  private:
-  std::array<slab, Capacity> slabs_{};
-  std::size_t size_ = 0;
+  inline_vector<slab, Capacity> slabs_;
 };
 
 /// Sum of x/X0 at normal incidence.
