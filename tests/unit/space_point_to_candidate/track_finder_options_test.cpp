@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: MPL-2.0
+#include "support/catch.hpp"
+
+#include <cmath>
+
+#include <scifi/core/units.hpp>
+#include <scifi/space_point_to_candidate/track_finder_options.hpp>
+
+using namespace scifi;
+
+TEST_CASE("the expected momentum follows from curvature and slope, within bounds", "[space_point_to_candidate]") {
+  track_finder_options o;
+  o.field = -3.0 * units::tesla;
+  CHECK(expected_momentum(o, o.field / 200.0, 0.25) == Approx(200.0 * std::sqrt(1.25)));
+  CHECK(expected_momentum(o, -o.field / 200.0, 0.0) == Approx(200.0));
+  CHECK(expected_momentum(o, o.field / 1.0, 0.0) == o.smallest_pz);
+  CHECK(std::isfinite(expected_momentum(o, 0.0, 0.0)));
+  o.field = 0.0;
+  CHECK(expected_momentum(o, 0.0, 0.1) == o.line_momentum);
+}
