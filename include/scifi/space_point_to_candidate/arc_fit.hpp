@@ -17,9 +17,10 @@ struct arc_point {
 
 /// What the arc fit knows before it sees a point.
 struct arc_prior {
-  double slope_variance = 0.09;       ///< per projection, about zero
+  double slope_variance = 0.09;       ///< per projection, about `slope`
   double curvature = 0.0;             ///< rad/mm
   double curvature_variance = 0.0;    ///< (rad/mm)^2; zero: the curvature is known and not fitted
+  planar<double> slope{};             ///< at the first point
 };
 
 /// A helix of given curvature w = field q/pz in space, as a filter in two complex numbers: the transverse position and slope.
@@ -27,13 +28,15 @@ struct arc_prior {
 /// With w fixed the helix is linear: slope' = e^{-i w dz} slope, position' = position + (1 - e^{-i w dz})/(i w) slope, a straight line for w = 0. Scattering
 /// and round errors keep the covariance a 2 x 2 Hermitian matrix, so one step costs a few multiplications. The derivative of the state in w goes along
 /// with the gains held fixed, hence each pass over the points is one Gauss-Newton step in w (variable projection; Golub and Pereyra,
-/// SIAM J. Numer. Anal. 10 (1973) 413). No circle is fitted, so nothing degenerates when the track is straight.
+/// SIAM J. Numer. Anal. 10 (1973) 413) where the prior slope is near the track's; from a prior slope of zero
+/// the turn of the first chord is not seen, so the steps come out short and the error of w large. No circle is fitted, so nothing degenerates when the track is straight.
 class arc_fit {
  public:
   /// Starts at the first point with the prior slope.
   arc_fit(const arc_point& first, const arc_prior& prior, double curvature)
-      : w_(curvature), position_(first.position), pp_(first.variance), ss_(prior.slope_variance), z_(first.z) {
+      : w_(curvature), position_(first.position), slope_(prior.slope), pp_(first.variance), ss_(prior.slope_variance), z_(first.z) {
     if (prior.curvature_variance > 0.0) {
+      fitted_ = 1.0;
       const double offset = prior.curvature - curvature;
       information_ = 1.0 / prior.curvature_variance;
       gradient_ = offset * information_;
@@ -64,8 +67,8 @@ class arc_fit {
     const planar<double> residual = point.position - position_;
     const double inverse = 1.0 / (pp_ + point.variance);
     chi2_ += norm(residual) * inverse;
-    gradient_ += dot(d_position_, residual) * inverse;
-    information_ += norm(d_position_) * inverse;
+    gradient_ += fitted_ * dot(d_position_, residual) * inverse;
+    information_ += fitted_ * norm(d_position_) * inverse;
     const double gain = pp_ * inverse;
     const planar<double> slope_gain = inverse * conjugate(ps_);
     position_ += gain * residual;
@@ -101,8 +104,9 @@ class arc_fit {
 
  private:
   double w_;
+  double fitted_ = 0.0;  // 1 where the curvature is
   planar<double> position_;
-  planar<double> slope_{};
+  planar<double> slope_;
   planar<double> d_position_{};  // d/dw
   planar<double> d_slope_{};
   double pp_;           // E |dp|^2 per projection
