@@ -22,7 +22,7 @@ struct curvature_hypothesis {
 /// The curvatures that three points at given z allow.
 ///
 /// On a helix the chord over dz is slope x sin(w dz/2)/(w/2), turned by half the angle. So the second chord is turned against the first by w (z3 - z1)/2, modulo
-/// a turn, and the ratio of their lengths must be that of the sines: each whole turn is a hypothesis that the lengths keep or reject. Where a chord is short
+/// a turn, and the ratio of their lengths must be that of the sines, whose signs count: each turn is a hypothesis that the lengths keep or reject. Where a chord is short
 /// against its errors the angle says nothing, and the typical curvature of either sign is tried.
 class chord_hypotheses {
  public:
@@ -55,13 +55,15 @@ class chord_hypotheses {
 
     const double half = 0.5 * (step1_ + step2_);
     const planar<double> product = conjugate(first) * second;
-    const double angle = -std::atan2(product.y, product.x);  // w half, modulo a turn
-    const double full_turn = 2.0 * constants::pi;
-    const int turns = static_cast<int>(std::ceil(largest_ * half / full_turn));
-    for (int n = -turns; n <= turns; ++n) {
-      const double w = (angle + n * full_turn) / half;
+    const double angle = -std::atan2(product.y, product.x);  // w half, modulo a turn; half a turn off where one of the chords has passed a whole turn
+    const int turns = static_cast<int>(std::ceil(largest_ * half / (2.0 * constants::pi)));
+    const int step = largest_ * std::max(step1_, step2_) < 2.0 * constants::pi ? 2 : 1;
+    for (int n = -2 * turns; n <= 2 * turns; n += step) {
+      const double w = (angle + n * constants::pi) / half;
       if (std::abs(w) > largest_) continue;
-      const double ratio = ratio_at(w);
+      const double signed_ratio = ratio_at(w);
+      if ((signed_ratio < 0.0) != (n % 2 != 0)) continue;
+      const double ratio = std::abs(signed_ratio);
       const double scatter = scattering_.slope_variance(middle_, expected_momentum(options_, w, 0.0), 0.0) * square(step2_);
       if (square(length2 - ratio * length1) < gate_ * (blur(a, b, c, ratio) + scatter)) out.push_back({w, 1});
     }

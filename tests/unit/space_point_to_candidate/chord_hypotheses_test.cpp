@@ -1,66 +1,100 @@
 // SPDX-License-Identifier: MPL-2.0
-#include "support/catch.hpp"
+#include <scifi/space_point_to_candidate/chord_hypotheses.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <complex>
 
 #include <scifi/core/units.hpp>
 #include <scifi/geometry/mice.hpp>
-#include <scifi/space_point_to_candidate/chord_hypotheses.hpp>
+#include <scifi/track_model/helix_propagator.hpp>
+
+#include "support/catch.hpp"
 
 using namespace scifi;
 
 namespace {
 
-const double z1 = 0.0, z2 = 200.0, z3 = 450.0;
+const tracker where = mice::trackers().trackers[mice::downstream];
 
-track_finder_options options() {
-  track_finder_options o;
-  o.field = 3.0 * units::tesla;
-  return o;
+struct search {
+  track_finder_options options;
+  station_scattering scattering{where, muon_plus, highland_scattering{}};
+};
+
+search in_field(double field) {
+  search s;
+  s.options.field = field;
+  return s;
 }
 
-/// A point of the helix position(z) = slope (1 - e^{-iwz})/(iw), from the equation of motion solved in complex numbers.
-arc_point on_helix(double w, double z, std::complex<double> slope) {
-  const std::complex<double> i(0.0, 1.0);
-  const std::complex<double> at = slope * (1.0 - std::exp(-i * w * z)) / (i * w);
-  return {{at.real(), at.imag()}, 0.1, z};
+/// Three points of the helix with this q/pz and slope.
+std::array<arc_point, 3> points(double field, double q_over_pz, double slope, const std::array<double, 3>& z) {
+  vector<double, 5> start;
+  start << 5.0, slope * 0.6, 7.0, slope * 0.8, q_over_pz;
+  std::array<arc_point, 3> out;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const auto at = helix_propagator{field}.propagate(start, z[i] - z[0]).state;
+    out[i] = {{at[slope_state::x], at[slope_state::y]}, 0.12, z[i]};
+  }
+  return out;
 }
 
-chord_hypotheses make(const track_finder_options& o, const station_scattering& s) { return {o, s, 0, 1, z1, z2, z3, 14.0}; }
+chord_hypotheses::list hypotheses(const search& s, const std::array<arc_point, 3>& p) {
+  const chord_hypotheses make(s.options, s.scattering, 0, 1, p[0].z, p[1].z, p[2].z, s.options.gate);
+  return make(p[0], p[1], p[2]);
+}
 
 }  // namespace
 
-TEST_CASE("the true curvature is among the hypotheses of three exact points, both senses, slow and fast", "[space_point_to_candidate]") {
-  const track_finder_options o = options();
-  const station_scattering scattering(mice::trackers().trackers[1], muon_plus, highland_scattering{});
-  const auto hypotheses = make(o, scattering);
-  for (const double pz : {60.0, 90.0, 110.0, 200.0, 280.0}) {
-    for (const double sense : {1.0, -1.0}) {
-      const double w = sense * o.field / pz;
-      const std::complex<double> slope = std::polar(0.25, 0.7);
-      const auto found = hypotheses(on_helix(w, z1, slope), on_helix(w, z2, slope), on_helix(w, z3, slope));
-      INFO("pz " << pz << " sense " << sense);
-      CHECK(std::any_of(found.begin(), found.end(), [w](const curvature_hypothesis& h) { return std::abs(h.curvature - w) < 1e-9 * std::abs(w) + 1e-15; }));
+TEST_CASE("the curvature of three points of a helix is among the hypotheses, whole turns included", "[space_point_to_candidate]") {
+  constexpr std::array<std::array<double, 3>, 3> distances{{{0.0, 200.0, 450.0}, {0.0, 450.0, 1100.0}, {0.0, 250.0, 550.0}}};
+  for (const double field : {3.0 * units::tesla, -4.0 * units::tesla}) {
+    const search s = in_field(field);
+    for (const auto& z : distances) {
+      for (const double pz : {55.0, 80.0, 95.0, 120.0, 200.0, 280.0}) {
+        for (const double charge : {1.0, -1.0}) {
+          const auto p = points(field, charge / pz, 0.3, z);
+          const double w = field * charge / pz;
+          const auto all = hypotheses(s, p);
+          INFO("field " << field << ", pz " << pz << ", charge " << charge << ", middle " << z[1]);
+          CHECK(std::any_of(all.begin(), all.end(), [w](const curvature_hypothesis& h) { return std::abs(h.curvature - w) < 1e-9; }));
+        }
+      }
     }
   }
 }
 
-TEST_CASE("chords whose lengths no curvature explains have no hypothesis", "[space_point_to_candidate]") {
-  const track_finder_options o = options();
-  const station_scattering scattering(mice::trackers().trackers[1], muon_plus, highland_scattering{});
-  const auto hypotheses = make(o, scattering);
-  const arc_point a{{0.0, 0.0}, 0.1, z1}, b{{50.0, 0.0}, 0.1, z2};
-  CHECK(hypotheses(a, b, {{52.0, 0.0}, 0.1, z3}).empty());   // second chord far too short
-  CHECK(hypotheses(a, b, {{150.0, 0.0}, 0.1, z3}).empty());  // far too long
+TEST_CASE("no hypothesis is beyond the least momentum", "[space_point_to_candidate]") {
+  const search s = in_field(3.0 * units::tesla);
+  for (const double pz : {40.0, 60.0, 150.0}) {
+    for (const curvature_hypothesis& h : hypotheses(s, points(s.options.field, 1.0 / pz, 0.3, {0.0, 250.0, 550.0})))
+      CHECK(std::abs(h.curvature) <= s.options.field / s.options.smallest_pz * (1.0 + 1e-12));
+  }
 }
 
-TEST_CASE("short chords ask for both senses of rotation", "[space_point_to_candidate]") {
-  const track_finder_options o = options();
-  const station_scattering scattering(mice::trackers().trackers[1], muon_plus, highland_scattering{});
-  const auto found = make(o, scattering)({{0.0, 0.0}, 0.1, z1}, {{0.3, 0.1}, 0.1, z2}, {{0.4, -0.2}, 0.1, z3});
-  const double typical = o.typical_q_over_pz * o.field;
-  for (const double w : {typical, -typical})
-    CHECK(std::any_of(found.begin(), found.end(), [w](const curvature_hypothesis& h) { return h.curvature == w && h.iterations > 1; }));
+TEST_CASE("points whose distances no curvature explains give none", "[space_point_to_candidate]") {
+  const search s = in_field(3.0 * units::tesla);
+  auto p = points(s.options.field, 0.005, 0.3, {0.0, 200.0, 450.0});
+  REQUIRE_FALSE(hypotheses(s, p).empty());
+  const planar<double> away = p[2].position - p[1].position;
+  p[2].position = p[1].position + 3.0 * away;
+  CHECK(hypotheses(s, p).empty());
+  p[2].position = p[1].position;
+  CHECK(hypotheses(s, p).empty());
+}
+
+TEST_CASE("where the chords are short both senses of rotation are tried", "[space_point_to_candidate]") {
+  const search s = in_field(3.0 * units::tesla);
+  for (const double slope : {0.0, 0.002, 0.005}) {
+    const auto all = hypotheses(s, points(s.options.field, 0.005, slope, {0.0, 200.0, 450.0}));
+    CHECK(std::any_of(all.begin(), all.end(), [](const curvature_hypothesis& h) { return h.curvature > 0.002; }));
+    CHECK(std::any_of(all.begin(), all.end(), [](const curvature_hypothesis& h) { return h.curvature < -0.002; }));
+  }
+}
+
+TEST_CASE("a track without any bend is a hypothesis", "[space_point_to_candidate]") {
+  const search s = in_field(3.0 * units::tesla);
+  const auto all = hypotheses(s, points(s.options.field, 0.0, 0.3, {0.0, 200.0, 450.0}));
+  CHECK(std::any_of(all.begin(), all.end(), [](const curvature_hypothesis& h) { return std::abs(h.curvature) < 1e-9; }));
 }
