@@ -120,9 +120,10 @@ TEST_CASE("a station is about half a per cent of a radiation length and one laye
   }
 }
 
-TEST_CASE("helium fills the trackers and space points end at a radius of 150 mm", "[geometry]") {
+TEST_CASE("helium fills the trackers; efficiency is quoted to 150 mm and the fibres end at 160 mm", "[geometry]") {
   for (const scifi::tracker& t : scifi::mice::trackers().trackers) {
     CHECK(t.gas.name == "helium");
     CHECK(t.fiducial_radius == 150.0);
+    CHECK(t.active_radius == 160.0);
   }
 }
