@@ -13,7 +13,7 @@ import sys
 CORE = {"core"}
 FIT = CORE | {"kalman", "material"}
 NOUNS = FIT | {"geometry", "track_model", "event"}
-ARROWS = ["particle_to_hit", "hit_to_digit", "digit_to_cluster", "cluster_to_space_point",
+ARROWS = ["particle_to_hit", "hit_to_digit", "readout_to_digit", "digit_to_cluster", "cluster_to_space_point",
           "space_point_to_candidate", "candidate_to_track"]
 
 # folder under include/scifi -> the other folders it may include
@@ -27,6 +27,7 @@ ALLOWED = {
     **{arrow: NOUNS for arrow in ARROWS},
     "chain": NOUNS | set(ARROWS),
     "io": NOUNS | set(ARROWS) | {"chain"},
+    "conditions": NOUNS | {"io"},
 }
 # headers directly in include/scifi
 UMBRELLAS = {
@@ -40,7 +41,8 @@ UMBRELLAS = {
 }
 # third-party headers, by folder; everywhere else Eigen is the only one
 EIGEN = ("Eigen/", "unsupported/Eigen/")
-THIRD_PARTY = {"io": EIGEN + ("nlohmann/", "zlib.h", "fcntl.h", "unistd.h")}
+THIRD_PARTY = {"io": EIGEN + ("nlohmann/", "zlib.h", "fcntl.h", "unistd.h"),
+               "conditions": EIGEN + ("sqlite3.h",)}
 # headers of the standard library with a slash or a suffix in their name
 STANDARD = ("experimental/simd",)
 
