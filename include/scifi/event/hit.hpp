@@ -12,9 +12,11 @@ struct hit {
   channel_id id;     ///< the channel that reads the fibre
   int fibre = 0;     ///< number of the fibre in its plane
   double edep = 0.0;  ///< MeV
-  double t = 0.0;     ///< ns, since the particle started
-  vector<double, 3> position = vector<double, 3>::Zero();  ///< where the particle enters the core, tracker frame, mm
+  double t = 0.0;     ///< ns, since the primary particle started
+  vector<double, 3> position = vector<double, 3>::Zero();  ///< where the particle enters the core or is born in it, tracker frame, mm
   vector<double, 3> momentum = vector<double, 3>::Zero();  ///< there, tracker frame, MeV/c
+  int parent = 0;  ///< number of the particle that made this one; 0 for a particle of the beam
+  int pdg_id = 0;
 };
 
 }  // namespace scifi

@@ -19,7 +19,7 @@ class digit_sources {
 
   /// The hits in a channel, in the order in which they were made; valid as long as this object.
   [[nodiscard]] std::span<const hit> of(const channel_id& id) const {
-    const auto [first, last] = std::equal_range(hits_.begin(), hits_.end(), hit{0, id, 0, 0.0, 0.0, {}, {}}, [](const hit& a, const hit& b) { return a.id < b.id; });
+    const auto [first, last] = std::equal_range(hits_.begin(), hits_.end(), hit{0, id, 0, 0.0, 0.0, {}, {}, 0, 0}, [](const hit& a, const hit& b) { return a.id < b.id; });
     return {first, last};
   }
 

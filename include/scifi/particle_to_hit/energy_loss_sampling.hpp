@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <concepts>
+#include <limits>
 
+#include <scifi/core/inline_vector.hpp>
 #include <scifi/core/random.hpp>
 #include <scifi/material/bethe.hpp>
 #include <scifi/material/concepts.hpp>
@@ -18,6 +20,18 @@ namespace scifi {
 template <class T>
 concept energy_loss_sampler = requires(const T sampler, double p, const particle hypothesis, const material medium, double path, random_stream random) {
   { sampler.sample(p, hypothesis, medium, path, random) } -> std::convertible_to<double>;
+};
+
+/// Electrons knocked on in a path that are worth following: those with at least `threshold` (kinetic energy, MeV).
+struct knock_ons {
+  double threshold;
+  inline_vector<double, 16> energies{};  ///< MeV; when it is full, further electrons count as stopped where they are made
+};
+
+/// A sampler that also tells the electrons it knocks on: sample(p, particle, medium, path, random, knock_ons) -> MeV, their energies included.
+template <class T>
+concept knock_on_sampler = requires(const T sampler, double p, const particle hypothesis, const material medium, double path, random_stream random, knock_ons electrons) {
+  { sampler.sample(p, hypothesis, medium, path, random, electrons) } -> std::convertible_to<double>;
 };
 
 /// The loss that an energy-loss policy gives, without fluctuation. `fixed_loss<no_energy_loss>` loses nothing.
@@ -42,6 +56,12 @@ struct collision_loss {
   double excitations = 3.0;
 
   [[nodiscard]] double sample(double p, const particle& hypothesis, const material& medium, double path, random_stream& random) const {
+    knock_ons none{std::numeric_limits<double>::infinity()};
+    return sample(p, hypothesis, medium, path, random, none);
+  }
+
+  /// The same; transfers of at least `electrons.threshold` are appended to `electrons` and are part of the loss.
+  [[nodiscard]] double sample(double p, const particle& hypothesis, const material& medium, double path, random_stream& random, knock_ons& electrons) const {
     if (!(path > 0.0) || !(medium.density > 0.0)) return 0.0;
     const ionisation_kinematics<double> k = ionisation_kinematics_of(p, hypothesis);
     const double xi = landau_xi(k, hypothesis, medium, path);
@@ -58,7 +78,9 @@ struct collision_loss {
     const int candidates = random.poisson(xi * (1.0 / cut - 1.0 / largest));
     for (int i = 0; i < candidates; ++i) {
       const double transfer = 1.0 / random.uniform(1.0 / largest, 1.0 / cut);
-      if (random.uniform() < 1.0 - k.beta_squared * transfer / largest) loss += transfer;
+      if (!(random.uniform() < 1.0 - k.beta_squared * transfer / largest)) continue;
+      loss += transfer;
+      if (transfer >= electrons.threshold) electrons.energies.push_back(transfer);
     }
     return loss;
   }

@@ -1,45 +1,35 @@
 // SPDX-License-Identifier: MPL-2.0
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <optional>
 #include <vector>
 
 #include <scifi/core/random.hpp>
 #include <scifi/event/truth.hpp>
-#include <scifi/geometry/fibre.hpp>
-#include <scifi/geometry/surface.hpp>
 #include <scifi/geometry/tracker.hpp>
 #include <scifi/material/momentum.hpp>
+#include <scifi/particle_to_hit/decay.hpp>
+#include <scifi/particle_to_hit/electron_flight.hpp>
 #include <scifi/particle_to_hit/energy_loss_sampling.hpp>
 #include <scifi/particle_to_hit/fibre_crossing.hpp>
+#include <scifi/particle_to_hit/fibre_layer.hpp>
 #include <scifi/particle_to_hit/helix_step.hpp>
+#include <scifi/particle_to_hit/knocked_on.hpp>
 #include <scifi/particle_to_hit/moving_particle.hpp>
 #include <scifi/particle_to_hit/scattering_sampling.hpp>
+#include <scifi/particle_to_hit/transport_settings.hpp>
 
 namespace scifi {
-
-/// How the flight of a particle through a tracker ended.
-enum class flight_end {
-  crossed,      ///< it passed every plane
-  left,         ///< it went further from the axis than the radius of the tracker
-  stopped,      ///< nothing of its kinetic energy was left
-  turned_back,  ///< it no longer flew along the direction in which it started
-};
-
-/// What a transport is told besides the tracker.
-struct transport_settings {
-  double field = 0.0;       ///< Bz in the tracker frame, (MeV/c)/(e mm): B in tesla times units::tesla
-  double radius = 160.0;    ///< particles further from the axis are dropped, mm
-  fibre_doublet doublet{};  ///< the sensitive layer of every plane
-};
 
 /// Follows one particle through a tracker: an exact helix between the surfaces, scattering in the middle of each slab of material (and of the gas
 /// between the stations), and a loss of energy drawn for each fibre core and for what is between the cores. Inside a row of fibres the track is straight.
 ///
-/// Half a doublet holds one row of fibres: the last slab below and the first above z_measured are the two rows. Decays and the flight of knocked-on
-/// electrons are left out: they leave their energy where they are made. Const and without state: shared between threads.
+/// Half a doublet holds one row of fibres: the last slab below and the first above z_measured are the two rows. Knocked-on electrons and those of
+/// decays are followed by an `electron_flight`, muons of pions like their parent. Strong interactions are left out. Const: shared between threads.
 template <class Scattering = coulomb_scattering, class Loss = collision_loss>
 class transport {
   static_assert(scattering_sampler<Scattering>,
@@ -51,40 +41,66 @@ class transport {
 
  public:
   transport(const tracker& t, const transport_settings& settings, Scattering scattering = {}, Loss loss = {})
-      : tracker_id_(t.id), gas_(t.gas), settings_(settings), scattering_(scattering), loss_(loss) {
-    for (const surface& s : surfaces_along(t, +1)) layers_.push_back({s, *plane_of(t, s)});
-  }
+      : tracker_id_(t.id),
+        gas_(t.gas),
+        settings_(settings),
+        scattering_(scattering),
+        loss_(loss),
+        layers_(fibre_layers(t)),
+        electrons_(t, settings) {}
 
-  /// Follows `moving` from where it is to the far side of the last plane ahead of it; appends what happens to `out`, under the number `index`.
-  flight_end operator()(moving_particle moving, int index, random_stream& random, truth& out) const {
-    if (moving.momentum.z() == 0.0) return flight_end::turned_back;
-    flight f{moving, index, moving.momentum.z() > 0.0 ? 1 : -1, flight_end::crossed, random, out};
-    for (std::size_t i = 0; i < layers_.size() && f.end == flight_end::crossed; ++i) cross(f, layers_[f.direction > 0 ? i : layers_.size() - 1 - i]);
-    return f.end;
+  /// Follows `moving`, a particle of the beam, from where it is to the far side of the last plane ahead of it, then what it made; appends what happens
+  /// to `out`, under the number `index` and, for secondaries, the numbers after `out.last_particle`.
+  flight_end operator()(const moving_particle& moving, int index, random_stream& random, truth& out) const {
+    std::size_t next = out.particles.size();
+    out.particles.push_back({index, 0, moving.hypothesis.pdg_id, particle_origin::beam, moving.t, moving.position, moving.momentum});
+    const flight_end end = follow(moving, index, 0, random, out);
+    while (++next < out.particles.size()) {
+      const simulated_particle born = out.particles[next];
+      const std::optional<particle> hypothesis = particle_from_pdg(born.pdg_id);
+      if (!hypothesis) continue;
+      const moving_particle child{*hypothesis, born.position, born.momentum, born.t};
+      if (std::abs(born.pdg_id) == electron.pdg_id) electrons_(child, born.particle, born.parent, random, out);
+      else follow(child, born.particle, born.parent, random, out);
+    }
+    return end;
   }
 
  private:
-  struct layer {
-    surface at;
-    plane of;
-  };
   struct flight {
     moving_particle now;
-    int index;
+    int index, parent;
     int direction;
     flight_end end;
+    double life;  // left to it at rest, ns
     random_stream& random;
     truth& out;
     [[nodiscard]] bool over() const { return end != flight_end::crossed; }
+    void bear(particle_origin origin, const particle& what, const vector<double, 3>& position, const vector<double, 3>& momentum) {
+      out.particles.push_back({++out.last_particle, index, what.pdg_id, origin, now.t, position, momentum});
+    }
   };
 
-  [[nodiscard]] static const plane* plane_of(const tracker& t, const surface& s) {
-    for (const station& candidate : t.stations)
-      if (candidate.id == s.station) return &candidate.planes[static_cast<std::size_t>(s.plane)];
-    return nullptr;
+  flight_end follow(const moving_particle& moving, int index, int parent, random_stream& random, truth& out) const {
+    if (moving.momentum.z() == 0.0) return flight_end::turned_back;
+    const double life = settings_.decays ? mean_life(moving.hypothesis) * random.exponential() : std::numeric_limits<double>::infinity();
+    flight f{moving, index, parent, moving.momentum.z() > 0.0 ? 1 : -1, flight_end::crossed, life, random, out};
+    for (std::size_t i = 0; i < layers_.size() && !f.over(); ++i) cross(f, layers_[f.direction > 0 ? i : layers_.size() - 1 - i]);
+    if (f.end == flight_end::stopped && f.now.hypothesis.charge > 0 && std::isfinite(f.life)) {
+      f.now.t += f.life;
+      f.now.momentum.setZero();
+      decay(f);
+    } else if (f.end == flight_end::decayed) {
+      decay(f);
+    }
+    return f.end;
   }
 
-  void cross(flight& f, const layer& l) const {
+  void decay(flight& f) const {
+    if (const auto daughter = charged_daughter(f.now, f.random)) f.bear(particle_origin::decay, daughter->hypothesis, daughter->position, daughter->momentum);
+  }
+
+  void cross(flight& f, const fibre_layer& l) const {
     const double near = l.at.z_reference;
     const double far = l.at.z + thickness(l.at.above);
     const double gap = ((f.direction > 0 ? near : far) - f.now.position.z()) * f.direction;
@@ -102,7 +118,7 @@ class transport {
     }
   }
 
-  void through_slab(flight& f, const layer& l, const slab& s, int row) const {
+  void through_slab(flight& f, const fibre_layer& l, const slab& s, int row) const {
     if (row == no_row)
       through(f, s);
     else
@@ -113,14 +129,16 @@ class transport {
   void through(flight& f, const slab& s) const {
     fly(f, 0.5 * s.thickness);
     if (f.over()) return;
-    const double path_factor = f.now.momentum.norm() / std::abs(f.now.momentum.z());
-    scatter(f, s, path_factor);
-    if (!f.over()) lose(f, s.medium, s.thickness * path_factor);
+    const double path = s.thickness * f.now.momentum.norm() / std::abs(f.now.momentum.z());
+    scatter(f, s, path / s.thickness);
+    const vector<double, 3> middle = f.now.position;
+    const vector<double, 3> d = f.now.momentum.normalized();
+    if (!f.over()) lose(f, s.medium, path, [&](double along) { return vector<double, 3>(middle + (along - 0.5 * path) * d); });
     if (!f.over()) fly(f, 0.5 * s.thickness);
   }
 
   /// A slab with a row of fibres in it: the losses in the cores one by one, then that of the rest of the slab.
-  void through_row(flight& f, const layer& l, const slab& s, int row) const {
+  void through_row(flight& f, const fibre_layer& l, const slab& s, int row) const {
     const double p = f.now.momentum.norm();
     const double path_factor = p / std::abs(f.now.momentum.z());
     const double alpha = l.at.tracker_to_alpha(f.now.position.x(), f.now.position.y());
@@ -138,26 +156,40 @@ class transport {
       if (f.over()) return;
       hit h;
       h.particle = f.index;
+      h.parent = f.parent;
+      h.pdg_id = f.now.hypothesis.pdg_id;
       h.id = {tracker_id_, l.at.station, l.at.plane, channel_of_fibre(settings_.doublet, core.fibre)};
       h.fibre = core.fibre;
       h.position = entered.position + core.entry * d;
       h.momentum = f.now.momentum;
       h.t = entered.t + core.entry / speed;
-      h.edep = lose(f, s.medium, core.chord);
+      h.edep = lose(f, s.medium, core.chord, [&](double along) { return vector<double, 3>(h.position + along * d); });
       if (h.edep > 0.0) f.out.hits.push_back(h);
       between -= core.chord;
     }
-    if (!f.over()) lose(f, s.medium, between);
+    const auto beside_cores = [&](double along) {
+      for (const fibre_crossing& core : cores)
+        if (along >= core.entry) along += core.chord;
+      return vector<double, 3>(entered.position + along * d);
+    };
+    if (!f.over()) lose(f, s.medium, between, beside_cores);
     if (!f.over()) fly(f, 0.5 * s.thickness);
   }
 
   void fly(flight& f, double distance) const {
-    const double dz = f.direction * distance;
+    double dz = f.direction * distance;
+    // Proper time: m dz / (pz c).
+    const double life = f.now.hypothesis.mass * distance / (std::abs(f.now.momentum.z()) * constants::speed_of_light);
+    const bool decays = life >= f.life;
+    if (decays) dz *= f.life / life;
     // NaN counts as outside.
-    if (!(largest_radius(f.now, dz, settings_.field) <= settings_.radius))
+    if (!(largest_radius(f.now, dz, settings_.field) <= settings_.radius)) {
       f.end = flight_end::left;
-    else
-      helix_step(f.now, dz, settings_.field);
+      return;
+    }
+    helix_step(f.now, dz, settings_.field);
+    f.life -= life;
+    if (decays) f.end = flight_end::decayed;
   }
 
   void scatter(flight& f, const slab& s, double path_factor) const {
@@ -166,21 +198,31 @@ class transport {
     if (!(f.now.momentum.z() * f.direction > smallest_cosine * f.now.momentum.norm())) f.end = flight_end::turned_back;
   }
 
-  /// Takes away what is lost on a path and returns it; all of the kinetic energy where that is less.
-  double lose(flight& f, const material& medium, double path) const {
+  /// Takes away what is lost on a path and returns what stays there: without the electrons that are followed, which start at `place(path so far)`.
+  /// All of the kinetic energy where that is less than the loss.
+  template <class Place>
+  double lose(flight& f, const material& medium, double path, const Place& place) const {
     const double p = f.now.momentum.norm();
-    const double loss = loss_.sample(p, f.now.hypothesis, medium, path, f.random);
+    knock_ons electrons{settings_.follow_electrons_from};
+    double loss = 0.0;
+    if constexpr (knock_on_sampler<Loss>) loss = loss_.sample(p, f.now.hypothesis, medium, path, f.random, electrons);
+    else loss = loss_.sample(p, f.now.hypothesis, medium, path, f.random);
     const double left = momentum_after_loss(p, f.now.hypothesis.mass, loss).p_new;
     if (!(left > slowest * f.now.hypothesis.mass)) {
       f.end = flight_end::stopped;
       return f.now.kinetic_energy();
     }
+    for (const double kinetic_energy : electrons.energies) {
+      const vector<double, 3> momentum = knocked_on_momentum(f.now, kinetic_energy, f.random);
+      f.bear(particle_origin::knocked_on, electron, place(path * f.random.uniform()), momentum);
+      loss -= kinetic_energy;
+    }
     f.now.momentum *= left / p;
     return loss;
   }
 
-  void record_crossing(flight& f, const layer& l) const {
-    f.out.crossings.push_back({f.index, f.now.hypothesis.pdg_id, tracker_id_, l.at.station, l.at.plane, f.now.position, f.now.momentum});
+  void record_crossing(flight& f, const fibre_layer& l) const {
+    if (f.parent == 0) f.out.crossings.push_back({f.index, f.now.hypothesis.pdg_id, tracker_id_, l.at.station, l.at.plane, f.now.position, f.now.momentum});
   }
 
   static constexpr int no_row = -1;
@@ -193,7 +235,8 @@ class transport {
   transport_settings settings_;
   Scattering scattering_;
   Loss loss_;
-  std::vector<layer> layers_;  // in order of growing z
+  std::vector<fibre_layer> layers_;  // in order of growing z
+  electron_flight electrons_;
 };
 
 template <class... Policies>

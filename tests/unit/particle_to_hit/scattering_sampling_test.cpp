@@ -85,7 +85,7 @@ TEST_CASE("Coulomb scattering follows Moliere's distribution from the core to th
   constexpr double alpha = 1.0 / 137.035999;
   const double chi_c = std::sqrt(constants::pi / alpha) * constants::electron_mass / p * std::sqrt(radiation_lengths(doublet) / std::log(287.0 / std::sqrt(6.0)));
   const double chi_a = alpha * constants::electron_mass * std::cbrt(6.0) / (0.885 * p) * std::sqrt(1.13 + 3.76 * 36.0 * alpha * alpha);
-  const std::vector<double> sorted = magnitudes(coulomb_scattering{}, p, electron, doublet, 3, n, 7);
+  const std::vector<double> sorted = magnitudes(coulomb_scattering{6.0, screening::moliere}, p, electron, doublet, 3, n, 7);
   for (const double x : {0.5, 1.0, 2.0, 3.0, 5.0, 8.0, 15.0, 30.0}) {
     const double expected = moliere_below(x, chi_a / chi_c);
     CAPTURE(x, expected);
@@ -97,7 +97,7 @@ TEST_CASE("Coulomb scattering follows Moliere's distribution from the core to th
 
 TEST_CASE("Coulomb scattering of muons in a fibre plane has the width that Highland's formula promises", "[particle_to_hit]") {
   for (const double p : {120.0, 200.0, 280.0}) {
-    const std::vector<double> sorted = magnitudes(coulomb_scattering{}, p, muon_plus, doublet, 2, 20000, 8);
+    const std::vector<double> sorted = magnitudes(coulomb_scattering{6.0, screening::moliere}, p, muon_plus, doublet, 2, 20000, 8);
     const double width = sorted[static_cast<std::size_t>(0.6827 * static_cast<double>(sorted.size()))];
     const double highland = std::sqrt(highland_scattering{}.variance(p, muon_plus, doublet, 1.0));
     CAPTURE(p, width / highland);
@@ -105,6 +105,22 @@ TEST_CASE("Coulomb scattering of muons in a fibre plane has the width that Highl
     CHECK(below(sorted, 3.0 * highland) < 0.99);     // a Gaussian would have 0.9973
     CHECK(below(sorted, 3.0 * highland) > 0.975);
   }
+}
+
+TEST_CASE("Wentzel's screening narrows the core and leaves the tail", "[particle_to_hit]") {
+  constexpr int n = 100000;
+  const std::vector<double> moliere = magnitudes(coulomb_scattering{6.0, screening::moliere}, 200.0, muon_plus, doublet, 1, n, 12);
+  const std::vector<double> wentzel = magnitudes(coulomb_scattering{}, 200.0, muon_plus, doublet, 1, n, 13);
+  const auto core = [](const std::vector<double>& sorted) { return sorted[static_cast<std::size_t>(0.6827 * static_cast<double>(sorted.size()))]; };
+  // Below chi_c the mean square goes as ln(chi_c^2/chi_a^2) - 1, with chi_c^2/chi_a^2 = 220 for 0.63 mm of plastic: 4.4, less ln 1.965 = 0.68 of the core's
+  // 15 % in variance; scatters beyond chi_c, which widen the core too, dilute it.
+  CHECK(screening::wentzel(6.0) == Approx(1.9646).epsilon(1e-4));
+  const double ratio = core(wentzel) / core(moliere);
+  CHECK(ratio < 0.97);
+  CHECK(ratio > 0.92);
+  const double limit = 6.0 * core(moliere);
+  const double share = 1.0 - below(moliere, limit);
+  CHECK(std::abs(1.0 - below(wentzel, limit) - share) < 5.0 * std::sqrt(2.0 * share / (2.0 * n)));
 }
 
 TEST_CASE("electrons cannot turn a heavy particle beyond their mass over its own", "[particle_to_hit]") {
