@@ -97,6 +97,12 @@ class json_field {
     const std::string_view whole = e.what();
     const std::size_t colon = whole.find(": ");
     throw input_error(file, line, "", "is not JSON: " + std::string(colon == std::string_view::npos ? whole : whole.substr(colon + 2)));
+  } catch (const nlohmann::json::out_of_range& e) {
+    // A number beyond double; where it stands is known only of a text of one line.
+    const std::string_view whole = e.what();
+    const std::size_t bracket = whole.find("] ");
+    throw input_error(file, text.find('\n') == std::string_view::npos ? line : 0, "",
+                      "is not usable JSON: " + std::string(bracket == std::string_view::npos ? whole : whole.substr(bracket + 2)));
   }
 }
 

@@ -55,6 +55,8 @@ TEST_CASE("a document that is not JSON is refused with the line of the mistake",
   const auto path = folder.file("f.json", "{\n  \"a\": 1,\n  \"b\" 2\n}\n");
   const std::string message = message_of<input_error>([&] { (void)scifi::read_json(path); });
   CHECK(message.find(path.string() + ":3: is not JSON: syntax error") == 0);
+  const auto huge = folder.file("huge.json", "{\"a\": 1e999}");
+  CHECK(message_of<input_error>([&] { (void)scifi::read_json(huge); }) == huge.string() + ":1: is not usable JSON: number overflow parsing '1e999'");
   const auto empty = folder.file("empty.json", "");
   CHECK(message_of<input_error>([&] { (void)scifi::read_json(empty); }) == empty.string() + ": the file is empty");
 }
