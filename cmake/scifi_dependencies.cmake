@@ -30,6 +30,19 @@ macro(scifi_find_io)
   endif()
 endmacro()
 
+# Sets SCIFI_CONDITIONS_FOUND. Quiet, as for io. 3.37 brought STRICT tables.
+macro(scifi_find_conditions)
+  set(SCIFI_CONDITIONS_FOUND OFF)
+  if(SCIFI_CONDITIONS)
+    find_package(SQLite3 3.37 QUIET)
+    if(TARGET SQLite::SQLite3 AND SQLite3_FOUND AND SCIFI_IO_FOUND)
+      set(SCIFI_CONDITIONS_FOUND ON)
+    else()
+      message(STATUS "scifi: no scifi::conditions (needs scifi::io and SQLite 3.37; Debian: libsqlite3-dev)")
+    endif()
+  endif()
+endmacro()
+
 # Catch2 2.13 or 3. The tests bring their own main, so the target without one is enough.
 macro(scifi_need_catch)
   find_package(Catch2 3 QUIET)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MPL-2.0
-# find_package(scifi 0.1) gives scifi::scifi; with COMPONENTS io also scifi::io.
+# find_package(scifi 0.1) gives scifi::scifi; with COMPONENTS io also scifi::io, with COMPONENTS conditions that and scifi::conditions.
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
@@ -10,6 +10,10 @@ install(EXPORT scifi_targets FILE scifi_targets.cmake NAMESPACE scifi:: DESTINAT
 if(TARGET scifi_io)
   install(TARGETS scifi_io EXPORT scifi_io_targets)
   install(EXPORT scifi_io_targets FILE scifi_io_targets.cmake NAMESPACE scifi:: DESTINATION "${package_dir}")
+endif()
+if(TARGET scifi_conditions)
+  install(TARGETS scifi_conditions EXPORT scifi_conditions_targets)
+  install(EXPORT scifi_conditions_targets FILE scifi_conditions_targets.cmake NAMESPACE scifi:: DESTINATION "${package_dir}")
 endif()
 configure_package_config_file("${PROJECT_SOURCE_DIR}/cmake/scifi-config.cmake.in"
   "${PROJECT_BINARY_DIR}/scifi-config.cmake" INSTALL_DESTINATION "${package_dir}")

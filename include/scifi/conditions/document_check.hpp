@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <scifi/conditions/condition.hpp>
+#include <scifi/io/geometry_json.hpp>
+#include <scifi/io/input_error.hpp>
+#include <scifi/io/json_field.hpp>
+#include <scifi/io/text_source.hpp>
+
+namespace scifi {
+
+/// Tries a document of one kind with a reader. `reads` returns false for a format that is not its own, and throws input_error for one that is
+/// and has a mistake; `file` is for messages.
+struct document_check {
+  condition_kind kind = condition_kind::geometry;
+  std::function<bool(const std::string& document, const std::string& file)> reads;
+};
+
+/// Whether a text can be JSON alone: its first character that is no white space opens an object.
+[[nodiscard]] inline bool looks_like_json(std::string_view text) {
+  const std::size_t first = text.find_first_not_of(" \t\r\n");
+  return first != std::string_view::npos && text[first] == '{';
+}
+
+/// The checks for which the library has readers.
+[[nodiscard]] inline std::vector<document_check> built_in_document_checks() {
+  const auto geometry = [](const std::string& document, const std::string& file) {
+    if (!looks_like_json(document) && !file.ends_with(".json")) return false;
+    const nlohmann::json parsed = parse_json(document, file);
+    static_cast<void>(geometry_from_json(parsed, file));
+    static_cast<void>(fibre_from_json(parsed, file));
+    return true;
+  };
+  return {{condition_kind::geometry, geometry}};
+}
+
+/// Whether a check knows the document and found it good; false when none knows its format. Throws input_error when one found a mistake.
+[[nodiscard]] inline bool check_document(const std::vector<document_check>& checks, condition_kind kind, const std::string& document, const std::string& file) {
+  if (document.empty()) throw input_error(file, 0, "", "the file is empty");
+  for (const document_check& c : checks)
+    if (c.kind == kind && c.reads(document, file)) return true;
+  return false;
+}
+
+/// The text of a file as it goes into a store, unpacked if it is gzip. Throws input_error, also for more than `most` bytes.
+[[nodiscard]] inline std::string read_document(const std::filesystem::path& path, std::size_t most = std::size_t{1} << 28) {
+  text_source source(path);
+  std::string text;
+  constexpr std::size_t block = std::size_t{1} << 16;
+  std::size_t n = 0;
+  do {
+    const std::size_t old = text.size();
+    if (old > most) throw input_error(source.name(), 0, "", "is longer than " + std::to_string(most) + " bytes");
+    text.resize(old + block);
+    n = source.read(text.data() + old, block);
+    text.resize(old + n);
+  } while (n > 0);
+  return text;
+}
+
+}  // namespace scifi
