@@ -8,6 +8,7 @@
 #include <limits>
 #include <optional>
 #include <span>
+#include <type_traits>
 #include <vector>
 
 #include <scifi/candidate_to_track/fit_path.hpp>
@@ -18,6 +19,7 @@
 #include <scifi/event/track.hpp>
 #include <scifi/kalman/node_residual.hpp>
 #include <scifi/kalman/relinearised.hpp>
+#include <scifi/kalman/site.hpp>
 #include <scifi/track_model/conversions.hpp>
 #include <scifi/track_model/energy_loss_propagator.hpp>
 #include <scifi/track_model/fibre_measurement.hpp>
@@ -31,7 +33,8 @@ namespace scifi {
 struct track_fit_options {
   double field = 0.0;                ///< Bz in the tracker frame, (MeV/c)/(e mm)
   double line_momentum = 200.0;      ///< MeV/c, of straight tracks: sets their scattering
-  int passes = 2;                    ///< the first is linearised about the seed, each further one about the smoothed track before
+  int passes = 2;                    ///< at most: the first is linearised about the seed, each further one about the smoothed track before
+  double settled = 0.01;             ///< relative change of q/pz below which the linearisation was good enough and no further pass is made
   double position_spread = 50.0;     ///< mm, about the seed: wide, the data decide
   double slope_spread = 0.5;         ///< about the seed
   double typical_q_over_pz = 0.006;  ///< 1/(MeV/c): centre, with the seed's sign, of the prior of q/pz ...
@@ -59,7 +62,7 @@ class track_fitter {
   /// One surface of the way and what was measured there.
   template <class StateSpace>
   struct stop {
-    std::reference_wrapper<const leg> step;
+    std::optional<std::reference_wrapper<const leg>> step;
     std::optional<fibre_measurement<StateSpace>> measurement;
   };
 
@@ -134,7 +137,8 @@ class track_fitter {
     const std::size_t surfaces = path_.surfaces.size();
     work.stops.clear();
     for (std::size_t i = 0; i <= surfaces; ++i) {
-      stop<StateSpace> s{path_.legs[i], std::nullopt};
+      stop<StateSpace> s{kalman::at_start, std::nullopt};
+      if (i > 0) s.step = path_.legs[i];
       if (i < surfaces && cluster_at[i] >= 0) {
         const surface& at = path_.surfaces[i];
         const cluster& hit = clusters[static_cast<std::size_t>(cluster_at[i])];
@@ -144,7 +148,10 @@ class track_fitter {
     }
     work.nodes.resize(surfaces + 1);
     work.references.resize(surfaces + 2);
-    const auto result = kalman::run_relinearised(filter, start, seed, work.stops, work.nodes, work.references, options_.passes);
+    const auto result = kalman::run_relinearised(filter, start, seed, work.stops, work.nodes, work.references, options_.passes, [this](const auto& reference, const auto& smoothed) {
+      if constexpr (std::is_same_v<StateSpace, line_state>) return true;  // a line is linear
+      else return std::abs(smoothed[slope_state::q_over_pz] - reference[slope_state::q_over_pz]) <= options_.settled * std::abs(reference[slope_state::q_over_pz]);
+    });
     t.status = result.status;
     if (!result.status.ok()) return;
 

@@ -27,6 +27,14 @@ template <class Scalar, int N, int MaxM, class Step>
   return s;
 }
 
+/// No pass is left out.
+struct never_settled {
+  template <class State>
+  [[nodiscard]] constexpr bool operator()(const State&, const State&) const {
+    return false;
+  }
+};
+
 }  // namespace detail
 
 /// Filters and smooths several times, each pass linearised along the smoothed states of the one before: the Gauss-Newton iteration for the whole
@@ -34,9 +42,10 @@ template <class Scalar, int N, int MaxM, class Step>
 ///
 /// `sites`, `nodes` and `references` are contiguous; nodes has as many elements as sites, references one more. Does not allocate. With one pass and a
 /// good seed this is the filter linearised about a reference track. On failure the nodes reached are kept as `run` leaves them.
-template <class Filter, class Scalar, int N, class Sites, class Nodes, class References>
+/// `settled(reference, smoothed)`, asked of the states at the last site, may end it before all passes are made.
+template <class Filter, class Scalar, int N, class Sites, class Nodes, class References, class Settled = detail::never_settled>
 [[nodiscard]] run_result<Scalar> run_relinearised(const Filter& filter, const estimate<Scalar, N>& start, const vector<Scalar, N>& seed, const Sites& sites, Nodes& nodes,
-                                                  References& references, int passes) {
+                                                  References& references, int passes, const Settled& settled = {}) {
   references[0] = seed;
   std::size_t k = 0;
   for (const auto& site : sites) {
@@ -53,7 +62,7 @@ template <class Filter, class Scalar, int N, class Sites, class Nodes, class Ref
     result = filter.run(start, sites, nodes, references);
     if (!result.status.ok()) return result;
     result.status = smooth(nodes);
-    if (!result.status.ok()) return result;
+    if (!result.status.ok() || (k > 0 && settled(vector<Scalar, N>(references[k]), vector<Scalar, N>(nodes[k - 1].smoothed.mean)))) return result;
   }
   return result;
 }
