@@ -34,7 +34,7 @@ struct track_fit_options {
   double field = 0.0;                ///< Bz in the tracker frame, (MeV/c)/(e mm)
   double line_momentum = 200.0;      ///< MeV/c, of straight tracks: sets their scattering
   int passes = 2;                    ///< at most: the first is linearised about the seed, each further one about the smoothed track before
-  double settled = 0.01;             ///< relative change of q/pz below which the linearisation was good enough and no further pass is made
+  double settled = 0.01;             ///< no further pass where q/pz changed by less than this share, and is known to twice it
   double position_spread = 50.0;     ///< mm, about the seed: wide, the data decide
   double slope_spread = 0.5;         ///< about the seed
   double typical_q_over_pz = 0.006;  ///< 1/(MeV/c): centre, with the seed's sign, of the prior of q/pz ...
@@ -150,7 +150,11 @@ class track_fitter {
     work.references.resize(surfaces + 2);
     const auto result = kalman::run_relinearised(filter, start, seed, work.stops, work.nodes, work.references, options_.passes, [this](const auto& reference, const auto& smoothed) {
       if constexpr (std::is_same_v<StateSpace, line_state>) return true;  // a line is linear
-      else return std::abs(smoothed[slope_state::q_over_pz] - reference[slope_state::q_over_pz]) <= options_.settled * std::abs(reference[slope_state::q_over_pz]);
+      else {
+        constexpr int k = slope_state::q_over_pz;
+        const double share = options_.settled * std::abs(reference[k]);
+        return std::abs(smoothed.mean[k] - reference[k]) <= share && kalman::sigma(smoothed, k) <= 2.0 * share;
+      }
     });
     t.status = result.status;
     if (!result.status.ok()) return;

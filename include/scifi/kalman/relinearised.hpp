@@ -29,8 +29,8 @@ template <class Scalar, int N, int MaxM, class Step>
 
 /// No pass is left out.
 struct never_settled {
-  template <class State>
-  [[nodiscard]] constexpr bool operator()(const State&, const State&) const {
+  template <class State, class Estimate>
+  [[nodiscard]] constexpr bool operator()(const State&, const Estimate&) const {
     return false;
   }
 };
@@ -42,7 +42,7 @@ struct never_settled {
 ///
 /// `sites`, `nodes` and `references` are contiguous; nodes has as many elements as sites, references one more. Does not allocate. With one pass and a
 /// good seed this is the filter linearised about a reference track. On failure the nodes reached are kept as `run` leaves them.
-/// `settled(reference, smoothed)`, asked of the states at the last site, may end it before all passes are made.
+/// `settled(reference state, smoothed estimate)`, asked at the last site, may end it before all passes are made.
 template <class Filter, class Scalar, int N, class Sites, class Nodes, class References, class Settled = detail::never_settled>
 [[nodiscard]] run_result<Scalar> run_relinearised(const Filter& filter, const estimate<Scalar, N>& start, const vector<Scalar, N>& seed, const Sites& sites, Nodes& nodes,
                                                   References& references, int passes, const Settled& settled = {}) {
@@ -62,7 +62,7 @@ template <class Filter, class Scalar, int N, class Sites, class Nodes, class Ref
     result = filter.run(start, sites, nodes, references);
     if (!result.status.ok()) return result;
     result.status = smooth(nodes);
-    if (!result.status.ok() || (k > 0 && settled(vector<Scalar, N>(references[k]), vector<Scalar, N>(nodes[k - 1].smoothed.mean)))) return result;
+    if (!result.status.ok() || (k > 0 && settled(references[k], nodes[k - 1].smoothed))) return result;
   }
   return result;
 }
