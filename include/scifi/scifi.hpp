@@ -17,6 +17,7 @@
 #include <scifi/material/materials.hpp>
 #include <scifi/particle_to_hit/gun.hpp>
 #include <scifi/particle_to_hit/transport.hpp>
+#include <scifi/readout_to_digit/readout_digitiser.hpp>
 #include <scifi/space_point_to_candidate/track_finder.hpp>
 #include <scifi/track_model/conversions.hpp>
 #include <scifi/track_model/energy_loss_propagator.hpp>

@@ -48,10 +48,11 @@ bool same(const std::vector<digit>& a, const std::vector<digit>& b) {
   return true;
 }
 
-/// Names of the members of an object and kinds of their values: "npe number".
+/// Names of the members of an object and kinds of their values: "npe number, not whole".
 std::set<std::string> shape(const nlohmann::json& object) {
   std::set<std::string> out;
-  for (const auto& member : object.items()) out.insert(member.key() + ' ' + member.value().type_name());
+  for (const auto& member : object.items())
+    out.insert(member.key() + ' ' + member.value().type_name() + (member.value().is_number_float() ? ", not whole" : ""));
   return out;
 }
 
@@ -59,7 +60,7 @@ std::set<std::string> shape(const nlohmann::json& object) {
 
 TEST_CASE("a spill is a line that is read back exactly", "[io]") {
   std::string text;
-  const std::vector<digit> digits = {{{0, 1, 2, 111}, 13.949896090594210}, {{1, 5, 0, 7}, 1.0 / 3.0}};
+  const std::vector<digit> digits = {{{0, 1, 2, 111}, 13.949896090594210}, {{1, 5, 0, 7}, 1.0 / 3.0}, {{1, 5, 0, 8}, 2.0}, {{1, 5, 0, 9}, 1.0e21}};
   append_mice_spill(text, 4, digits, 7417);
   append_mice_spill(text, 5, {});
   CHECK(std::count(text.begin(), text.end(), '\n') == 2);
