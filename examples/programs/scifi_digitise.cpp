@@ -26,6 +26,8 @@
 #include <scifi/io/raw_reader.hpp>
 #include <scifi/readout_to_digit/readout_digitiser.hpp>
 
+#include "conditions/stored_conditions.hpp"
+
 #ifndef SCIFI_VERSION
 #define SCIFI_VERSION "of unknown version"
 #endif
@@ -35,6 +37,7 @@ namespace {
 namespace fs = std::filesystem;
 
 struct options {
+  stored_conditions stored;
   std::string raw, cabling, calibration, bad_channels, geometry, output = "digits.csv";
   double min_npe = 2.0;
 };
@@ -47,7 +50,13 @@ bool same_file(const fs::path& a, const fs::path& b) {
 void check(const options& o) {
   if (!std::isfinite(o.min_npe) || o.min_npe < 0.0) throw std::invalid_argument("--min-npe: not a finite number from 0 on");
   if (o.output.ends_with(".gz")) throw std::invalid_argument("--output: " + o.output + ": gzip is read but not written");
-  for (const std::string& in : {o.raw, o.cabling, o.calibration, o.bad_channels, o.geometry})
+  const auto require = [](const std::string& given, const char* option) {
+    if (given.empty()) throw std::invalid_argument(std::string(option) + " is required");
+  };
+  require(o.cabling, "--cabling");
+  require(o.calibration, "--calibration");
+  require(o.bad_channels, "--bad-channels");
+  for (const std::string& in : {o.raw, o.cabling, o.calibration, o.bad_channels, o.geometry, o.stored.store()})
     if (!in.empty() && same_file(in, o.output)) throw std::invalid_argument(o.output + ": would overwrite what is read");
 }
 
@@ -103,10 +112,10 @@ void print_summary(const options& o, const setup& with, long events, const scifi
   std::FILE* const out = o.output.starts_with("/dev/") ? stderr : stdout;
   const auto row = [out](const char* name, auto count, std::string_view remark = "") { fmt::print(out, "{:<18}{:>12}{}\n", name, count, remark); };
   fmt::print(out, "scifi-digitise {}\n", SCIFI_VERSION);
-  fmt::print(out, "{:<18}{}, {}\n", "read", o.raw, o.geometry.empty() ? "MICE trackers as surveyed" : o.geometry);
-  row("cables", with.cables, fmt::format("   {}; channels of the geometry without one {}", o.cabling, with.without_cable));
-  row("calibrated", with.calibrated, "   " + o.calibration);
-  row("bad channels", with.bad, "   " + o.bad_channels);
+  fmt::print(out, "{:<18}{}, {}\n", "read", o.raw, o.geometry.empty() ? "MICE trackers as surveyed" : o.stored.origin(o.geometry));
+  row("cables", with.cables, fmt::format("   {}; channels of the geometry without one {}", o.stored.origin(o.cabling), with.without_cable));
+  row("calibrated", with.calibrated, "   " + o.stored.origin(o.calibration));
+  row("bad channels", with.bad, "   " + o.stored.origin(o.bad_channels));
   row("events", events);
   row("counts", sum.counts());
   row("  not cabled", sum.not_cabled);
@@ -118,8 +127,12 @@ void print_summary(const options& o, const setup& with, long events, const scifi
   fmt::print(out, "{:<18}{}\n", "written", o.output);
 }
 
-void run(const options& o) {
+void run(options& o) {
   const auto start = std::chrono::steady_clock::now();
+  o.stored.fill_in(o.geometry, scifi::condition_kind::geometry);
+  o.stored.fill_in(o.cabling, scifi::condition_kind::cabling);
+  o.stored.fill_in(o.calibration, scifi::condition_kind::calibration);
+  o.stored.fill_in(o.bad_channels, scifi::condition_kind::bad_channels);
   check(o);
   const scifi::detector detector = o.geometry.empty() ? scifi::mice::trackers() : scifi::read_geometry(o.geometry);
   const scifi::cabling_map cabling = scifi::read_cabling(o.cabling, detector);
@@ -151,9 +164,10 @@ int main(int argc, char** argv) {
   options o;
   CLI::App app{"Makes digits of the raw ADC counts of scintillating-fibre trackers. All inputs may be gzip."};
   app.add_option("RAW", o.raw, "raw counts: CSV with the columns event, board, bank (of the board), channel, adc")->required();
-  app.add_option("--cabling", o.cabling, "cabling, text: board bank channel tracker station plane channel and three numbers more a line")->required();
-  app.add_option("--calibration", o.calibration, "calibration, JSON: objects with bank (through all boards), channel, adc_pedestal, adc_gain")->required();
-  app.add_option("--bad-channels", o.bad_channels, "bad channels, text: bank (through all boards) and channel a line; may be empty")->required();
+  app.add_option("--cabling", o.cabling, "cabling, text: board bank channel tracker station plane channel and three numbers more a line");
+  app.add_option("--calibration", o.calibration, "calibration, JSON: objects with bank (through all boards), channel, adc_pedestal, adc_gain");
+  app.add_option("--bad-channels", o.bad_channels, "bad channels, text: bank (through all boards) and channel a line; may be empty");
+  o.stored.offer(app);
   app.add_option("--geometry", o.geometry, "geometry in JSON that goes with the cabling; the MICE trackers unless given");
   app.add_option("--min-npe", o.min_npe, "least light of a digit, photo-electrons")->capture_default_str();
   app.add_option("-o,--output", o.output, "digits: MICE JSON, one event a spill, where the name ends in .json, else CSV")->capture_default_str();

@@ -38,7 +38,7 @@ class conditions_store {
 
   /// Adds documents, all of them or none, and returns their records. What comes without a time is recorded `now`, or in the last second that
   /// something of the store was recorded if this clock is behind: it is to be in force. Throws std::invalid_argument for an interval that
-  /// ends before it begins, a negative tracker, an empty document or a time after `now`.
+  /// ends before it begins, a negative tracker, a time after `now`, or an empty document (bad channels excepted: there may be none).
   std::vector<condition> add(std::span<const new_condition> documents, recorded_time now = recorded_time_now()) {
     for (const new_condition& d : documents) check(d, now);
     std::vector<condition> added;
@@ -118,7 +118,7 @@ class conditions_store {
   static void check(const new_condition& d, recorded_time now) {
     if (!d.runs.is_valid()) throw std::invalid_argument("the runs " + to_text(d.runs) + " are no interval from 0 on");
     if (d.tracker && *d.tracker < 0) throw std::invalid_argument("tracker " + std::to_string(*d.tracker) + " is negative");
-    if (d.document.empty()) throw std::invalid_argument("the document is empty");
+    if (d.document.empty() && d.kind != condition_kind::bad_channels) throw std::invalid_argument("the document is empty");
     if (d.recorded && *d.recorded > now) throw std::invalid_argument("recorded " + to_text(*d.recorded) + ": that is in the future");
   }
 

@@ -165,6 +165,14 @@ TEST_CASE("a record keeps every byte and word of what was handed in", "[conditio
   CHECK(store.document(c) == bytes);
 }
 
+TEST_CASE("there may be no bad channels", "[conditions]") {
+  const temporary_folder folder;
+  conditions_store store(folder / "a.db", writing);
+  new_condition none = geometry({1, 2}, "2015-01-01", "");
+  none.kind = condition_kind::bad_channels;
+  CHECK(store.document(store.add(none)).empty());
+}
+
 TEST_CASE("what comes without a time is recorded now and in force, even if this clock is behind", "[conditions]") {
   const temporary_folder folder;
   conditions_store store(folder / "a.db", writing);

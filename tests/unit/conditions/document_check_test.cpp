@@ -40,9 +40,20 @@ TEST_CASE("a geometry with a mistake is refused with file and field", "[conditio
   CHECK(refused(document.dump(), "g.json") == "g.json: fibre.diameter: -1.0 is not above zero");
 }
 
+TEST_CASE("a calibration with a mistake is refused with file and field", "[conditions]") {
+  const auto says = [](const std::string& text) { return message_of<input_error>([&] { static_cast<void>(checked(condition_kind::calibration, text, "c.json")); }); };
+  CHECK(says("gain 3").starts_with("c.json:1: is not JSON"));
+  CHECK(says("7").starts_with("c.json: "));
+}
+
 TEST_CASE("a format without a reader passes unchecked, and says so", "[conditions]") {
   CHECK_FALSE(checked(condition_kind::geometry, "Module Tracker\n{\n}\n", "Tracker.dat"));
   CHECK_FALSE(checked(condition_kind::alignment, "{}", "a.json"));
+}
+
+TEST_CASE("an empty document is refused, unless it says that no channel is bad", "[conditions]") {
+  CHECK(message_of<input_error>([] { static_cast<void>(checked(condition_kind::alignment, "", "a.txt")); }) == "a.txt: the file is empty");
+  CHECK_FALSE(checked(condition_kind::bad_channels, "", "bad.txt"));
 }
 
 TEST_CASE("a check of one's own joins in", "[conditions]") {
