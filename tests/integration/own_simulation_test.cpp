@@ -63,7 +63,8 @@ test::track_score simulate_and_score(const run& r) {
   for (int i = 0; i < r.events; ++i) {
     const auto number = static_cast<std::uint64_t>(i);
     real.clear();
-    for (int k = 0; k < r.particles_per_event; ++k) {
+    real.last_particle = r.particles_per_event;
+    for (int k = 1; k <= r.particles_per_event; ++k) {
       const auto index = static_cast<std::uint32_t>(k);
       random_stream for_gun(r.seed, number, stage::gun, index);
       random_stream for_flight(r.seed, number, stage::flight, index);

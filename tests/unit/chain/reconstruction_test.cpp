@@ -40,6 +40,7 @@ event simulated(std::uint64_t number, int particles, double field) {
     beam.pt_max = 50.0;
     beam.radius = 60.0;
     truth real;
+    real.last_particle = particles;
     random_stream random(77, number, static_cast<std::uint32_t>(t.id));
     for (int i = 1; i <= particles; ++i) fly(beam.shoot(t, random), i, random, real);
     std::vector<raw_digit> digits;
