@@ -15,6 +15,9 @@ import tempfile
 PROGRAM = pathlib.Path(sys.argv[1]) / "scifi-simulate"
 SKIPPED = 77
 TRUTH = "event,track,pdg,tracker,station,plane,x_mm,y_mm,z_mm,px_MeV,py_MeV,pz_MeV".split(",")
+HITS = "event,track,parent,pdg,tracker,station,plane,fibre,edep_MeV,t_ns,x_mm,y_mm,z_mm,px_MeV,py_MeV,pz_MeV".split(",")
+SOURCES = "event,tspc,track,parent,pdg,hits,edep_MeV".split(",")
+PARTICLES = "event,track,parent,pdg,origin,tracker,t_ns,x_mm,y_mm,z_mm,px_MeV,py_MeV,pz_MeV".split(",")
 DIGITS = "event,tracker,station,plane,channel,adc,npe".split(",")
 
 
@@ -36,7 +39,7 @@ def rows(content, header):
 
 def check_threads(folder):
     # More events than a block that is simulated at once.
-    options = ("--events", 1500, "--seed", 42)
+    options = ("--events", 1500, "--seed", 42, "--hits")
     one = simulate(folder / "one", *options, "--threads", 1)
     assert one == simulate(folder / "two", *options, "--threads", 2)
     assert one != simulate(folder / "other", "--events", 1500, "--seed", 43, "--threads", 2)
@@ -63,6 +66,59 @@ def check_rows(folder):
     assert keys == sorted(set(keys)), "digits are unique and in order"
 
 
+def check_history(folder):
+    prefix = folder / "history"
+    digits, truth = simulate(prefix, "--events", 100, "--seed", 6, "--hits", "--particle", "pi+")
+    digits, truth = rows(digits, DIGITS), rows(truth, TRUTH)
+    hits, sources, particles = (rows(pathlib.Path(f"{prefix}_{part}.csv").read_bytes(), header)
+                                for part, header in (("hits", HITS), ("sources", SOURCES), ("particles", PARTICLES)))
+    born = {(r["event"], r["track"]): r for r in particles}
+    assert len(born) == len(particles), "a number belongs to one particle of the event"
+    assert {r["origin"] for r in particles} == {"beam", "knocked_on", "decay"}
+    assert {r["pdg"] for r in truth} == {"211"}, "crossings are those of the beam"
+    for r in particles:
+        assert (r["origin"] == "beam") == (r["parent"] == "0")
+        assert r["parent"] == "0" or (r["event"], r["parent"]) in born
+    behind = {}
+    for r in hits:
+        particle = born[r["event"], r["track"]]
+        assert (particle["pdg"], particle["parent"]) == (r["pdg"], r["parent"])
+        tspc = ((int(r["tracker"]) * 10 + int(r["station"])) * 10 + int(r["plane"])) * 1000 + int(r["fibre"]) // 7
+        key = (r["event"], str(tspc), r["track"])
+        behind[key] = behind.get(key, 0.0) + float(r["edep_MeV"])
+    assert sources
+    for r in sources:
+        assert abs(behind[r["event"], r["tspc"], r["track"]] - float(r["edep_MeV"])) < 1e-5
+    lit = {(r["event"], r["tspc"]) for r in sources}
+    bright = {(r["event"], str(((int(r["tracker"]) * 10 + int(r["station"])) * 10 + int(r["plane"])) * 1000 + int(r["channel"])))
+              for r in digits if float(r["npe"]) > 8.0}
+    assert bright <= lit, "what is too bright for noise has a particle behind it"
+
+
+def check_beams(folder):
+    # Gaussian: the size that emittance and beta function give, 30 mm before the first station.
+    prefix = folder / "gaussian"
+    simulate(prefix, "--events", 4000, "--tracker", 1, "--beam", "gaussian", "--emittance", 4, "--beta", 500, "--momentum", 180, 5, "--hits", "--no-decays")
+    start = [r for r in rows(pathlib.Path(f"{prefix}_particles.csv").read_bytes(), PARTICLES) if r["origin"] == "beam"]
+    assert len(start) == 4000 and all(float(r["z_mm"]) == -30.0 for r in start)
+    variance = sum(float(r["x_mm"]) ** 2 for r in start) / 4000
+    expected = 105.658 * 4 * 500 / 180
+    assert abs(variance / expected - 1) < 5 * math.sqrt(2 / 4000), (variance, expected)
+
+    # The same particles from a file: the same crossings where they start, in the events of the file.
+    table = folder / "beam.csv"
+    table.write_text("event,tracker,pdg,x_mm,y_mm,z_mm,t_ns,px_MeV,py_MeV,pz_MeV,note\n"
+                     "5,1,-13,10,20,-30,0,5,6,200,a\n5,0,13,0,0,1130,0,0,0,-180,b\n9,1,211,1,1,-30,0,0,0,220,c\n")
+    _, truth = simulate(folder / "from_file", "--particles", table)
+    first = {}
+    for r in rows(truth, TRUTH):
+        first.setdefault((int(r["event"]), int(r["tracker"])), r)
+    assert set(first) == {(5, 0), (5, 1), (9, 1)}, set(first)
+    assert first[5, 1]["pdg"] == "-13" and first[5, 0]["pdg"] == "13" and first[9, 1]["pdg"] == "211"
+    assert first[5, 0]["station"] == "5" and first[5, 0]["plane"] == "2"
+    assert abs(float(first[5, 1]["x_mm"]) - 10.0) < 2.0
+
+
 def check_no_noise_no_particles(folder):
     digits, truth = simulate(folder / "empty", "--events", 3, "--tracks-per-event", 0, "--noise-rate", 0)
     assert digits.decode().splitlines() == [",".join(DIGITS)]
@@ -77,6 +133,8 @@ def check_refusals(folder):
             (("--events", 0), "--events"),
             (("--noise-rate", 1.5), "--noise-rate"),
             (("--scattering", "much"), "--scattering"),
+            (("--beam", "gaussian", "--emittance", -1), "emittance"),
+            (("--particles", folder / "missing.csv"), "missing.csv"),
             (("--geometry", folder / "missing.json"), "missing.json"),
             (("--output", folder / "no" / "such" / "folder"), "folder_digits.csv")):
         prefix = folder / "refused"
@@ -93,7 +151,7 @@ def main():
         print(f"skipped: no {PROGRAM}")
         return SKIPPED
     with tempfile.TemporaryDirectory() as name:
-        for check in (check_threads, check_rows, check_no_noise_no_particles, check_refusals):
+        for check in (check_threads, check_rows, check_history, check_beams, check_no_noise_no_particles, check_refusals):
             check(pathlib.Path(name))
             print("passed:", check.__name__)
     return 0

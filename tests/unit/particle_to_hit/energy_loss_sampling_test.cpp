@@ -117,3 +117,29 @@ TEST_CASE("a fixed loss is that of its policy", "[particle_to_hit]") {
         Approx(0.5 * mean_energy_loss_rate(200.0, muon_plus, materials::polystyrene).value));
   CHECK(fixed_loss<no_energy_loss>{}.sample(200.0, muon_plus, materials::polystyrene, 0.5, random) == 0.0);
 }
+
+TEST_CASE("electrons worth following are told and are part of the loss", "[particle_to_hit]") {
+  // Number above T_t: xi (1/T_t - 1/T_max - beta^2/T_max ln(T_max/T_t)), the integral of the cross-section.
+  constexpr int n = 20000;
+  constexpr double threshold = 0.045;
+  const double path = 0.63;
+  const ionisation_kinematics<double> k = ionisation_kinematics_of(200.0, muon_plus);
+  const double xi = landau_xi(k, muon_plus, materials::polystyrene, path);
+  const double expected = xi * (1.0 / threshold - 1.0 / k.largest_transfer - k.beta_squared / k.largest_transfer * std::log(k.largest_transfer / threshold));
+  int count = 0;
+  for (int i = 0; i < n; ++i) {
+    random_stream random(21, static_cast<std::uint64_t>(i), 0), same(21, static_cast<std::uint64_t>(i), 0);
+    knock_ons electrons{threshold};
+    const double loss = collision_loss{}.sample(200.0, muon_plus, materials::polystyrene, path, random, electrons);
+    REQUIRE(loss == collision_loss{}.sample(200.0, muon_plus, materials::polystyrene, path, same));
+    double carried = 0.0;
+    for (const double kinetic_energy : electrons.energies) {
+      REQUIRE(kinetic_energy >= threshold);
+      REQUIRE(kinetic_energy <= k.largest_transfer * (1.0 + 1e-12));
+      carried += kinetic_energy;
+      ++count;
+    }
+    REQUIRE(carried <= loss);
+  }
+  CHECK(std::abs(count - n * expected) < 5.0 * std::sqrt(n * expected));
+}

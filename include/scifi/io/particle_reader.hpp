@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <scifi/io/csv.hpp>
+#include <scifi/particle_to_hit/moving_particle.hpp>
+
+namespace scifi {
+
+/// A particle of a beam file: where it starts, and in the frame of which tracker.
+struct beam_particle {
+  int tracker = 0;
+  moving_particle start;
+};
+
+/// The particles of an event.
+struct beam_event {
+  long number = 0;
+  std::vector<beam_particle> particles;
+};
+
+/// Reads a beam from a table, plain or gzip, such as another simulation writes: a header line, then the columns event, tracker, pdg, x_mm, y_mm, z_mm,
+/// t_ns, px_MeV, py_MeV, pz_MeV, found by name; others are ignored. The frame is the tracker's. Particles of an event stand together and event numbers grow.
+/// Throws input_error, with file, line and column, for whatever does not fit, an unknown pdg and pz = 0 among it.
+[[nodiscard]] inline std::vector<beam_event> read_particles(const std::filesystem::path& path) {
+  enum columns : std::size_t { event_column, tracker_column, pdg_column, x, y, z, t, px, py, pz };
+  csv_reader rows(path, {"event", "tracker", "pdg", "x_mm", "y_mm", "z_mm", "t_ns", "px_MeV", "py_MeV", "pz_MeV"});
+  std::vector<beam_event> out;
+  while (rows.next_row()) {
+    const long number = rows.whole_number<long>(event_column);
+    if (number < 0) rows.fail("event", "event numbers must not be negative");
+    if (!out.empty() && number < out.back().number)
+      rows.fail("event", std::to_string(number) + " comes after " + std::to_string(out.back().number) +
+                             ": the rows of an event must stand together and event numbers must grow");
+    const int pdg = rows.whole_number<int>(pdg_column);
+    const auto hypothesis = particle_from_pdg(pdg);
+    if (!hypothesis) rows.fail("pdg", std::to_string(pdg) + " is not known; try 13, -13, 211, -211, 11, -11 or 2212");
+    beam_particle p;
+    p.tracker = rows.whole_number<int>(tracker_column);
+    p.start.hypothesis = *hypothesis;
+    p.start.position = {rows.number(x), rows.number(y), rows.number(z)};
+    p.start.momentum = {rows.number(px), rows.number(py), rows.number(pz)};
+    p.start.t = rows.number(t);
+    if (p.start.momentum.z() == 0.0) rows.fail("pz_MeV", "a particle needs a momentum along z");
+    if (out.empty() || number != out.back().number) out.push_back({number, {}});
+    out.back().particles.push_back(p);
+  }
+  return out;
+}
+
+}  // namespace scifi
