@@ -148,7 +148,7 @@ class track_fitter {
     }
     work.nodes.resize(surfaces + 1);
     work.references.resize(surfaces + 2);
-    const auto result = kalman::run_relinearised(filter, start, seed, work.stops, work.nodes, work.references, options_.passes, [this](const auto& reference, const auto& smoothed) {
+    const auto result = kalman::run_relinearised(filter, start, seed, work.stops, work.nodes, work.references, options_.passes, [&](const auto& reference, const auto& smoothed) {
       if constexpr (std::is_same_v<StateSpace, line_state>) return true;  // a line is linear
       else {
         constexpr int k = slope_state::q_over_pz;
