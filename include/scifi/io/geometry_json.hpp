@@ -204,7 +204,8 @@ class geometry_parser {
   take("core_diameter", f.core_diameter);
   take("pitch_in_layer", f.pitch);
   take("layer_separation", f.row_separation);
-  take("mylar_thickness", f.mylar_thickness);
+  if (from.has("mylar_thickness")) f.mylar_thickness = from.at("mylar_thickness").number();
+  if (f.mylar_thickness < 0.0) from.at("mylar_thickness").fail("is negative");
   if (from.has("fibres_per_channel")) f.fibres_per_channel = from.at("fibres_per_channel").whole_number(1);
   if (f.core_diameter > f.diameter) from.at("core_diameter").fail("is larger than the diameter");
   return f;

@@ -184,6 +184,9 @@ TEST_CASE("fibres are as the file says, and as in MICE where it says nothing", "
   CHECK(f.core_diameter == 0.45);
   CHECK(f.fibres_per_channel == 3);
   CHECK(f.pitch == scifi::fibre_doublet{}.pitch);
+  CHECK(scifi::fibre_from_json(json::parse(R"({"fibre": {"mylar_thickness": 0}})"), "f.json").mylar_thickness == 0.0);
+  const auto negative = json::parse(R"({"fibre": {"mylar_thickness": -0.1}})");
+  CHECK(message_of<input_error>([&] { (void)scifi::fibre_from_json(negative, "f.json"); }) == "f.json: fibre.mylar_thickness: is negative");
   const auto core_too_large = json::parse(R"({"fibre": {"diameter": 0.3, "core_diameter": 0.45}})");
   CHECK(message_of<input_error>([&] { (void)scifi::fibre_from_json(core_too_large, "f.json"); }) == "f.json: fibre.core_diameter: is larger than the diameter");
 }

@@ -1,0 +1,149 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MPL-2.0
+"""scifi-geometry from the outside: tables, JSON and drawings of geometries, and what it says when the input is bad.
+
+Usage: geometry_cli_test.py BIN
+BIN is the folder of the programs. Needs the standard library alone. Exit status 77: the program was not built.
+SCIFI_SHARED_DATA in the environment names the folder of external data; tests that need it are skipped without.
+"""
+
+import json
+import os
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+import xml.etree.ElementTree
+
+BIN = None
+SKIPPED = 77
+SHARED = os.environ.get("SCIFI_SHARED_DATA")
+
+PLANE = """Module View{view}
+{{
+  Volume Cylinder
+  Dimensions 18.9 0.06273 cm
+  Position 0 0 {z} mm
+  Rotation 0 0 {angle} degree
+  PropertyString Material POLYSTYRENE
+  PropertyString SensitiveDetector SciFi
+  PropertyInt Plane {number}
+  PropertyDouble ActiveRadius 161 mm
+  PropertyDouble Pitch 0.427 mm
+  PropertyDouble FibreDiameter 0.350 mm
+  PropertyDouble CoreDiameter 0.308 mm
+  PropertyDouble CentralFibre {central}
+}}
+"""
+
+
+def station(number, z):
+    planes = "".join(PLANE.format(view=view, z=at, angle=angle, number=i, central=central)
+                     for i, (view, at, angle, central) in enumerate((("V", -0.6398, -120, 106.5), ("W", 0.0125, 120, 106.5), ("X", 0.6648, 0, 105.5))))
+    return f"Module Station{number}\n{{\n  PropertyInt Station {number}\n  Position 0.1 -0.2 {z} mm\n{planes}}}\n"
+
+
+def geometry(field=3):
+    stations = "".join(station(i, z) for i, z in enumerate((-550, -350, -100, 200, 550), 1))
+    return (f"Configuration Test\n{{\n  PropertyHep3Vector MagneticField 0 0 {field} tesla\n"
+            f"  Module Tracker\n  {{\n    PropertyInt Tracker 1\n    PropertyString Material He\n{stations}  }}\n}}\n")
+
+
+def run(program, *options):
+    return subprocess.run([BIN / program, *map(str, options)], capture_output=True, text=True, timeout=120, check=False)
+
+
+class Geometry(unittest.TestCase):
+    def setUp(self):
+        holder = tempfile.TemporaryDirectory()
+        self.addCleanup(holder.cleanup)
+        self.folder = pathlib.Path(holder.name)
+
+    def file(self, name, content):
+        path = self.folder / name
+        path.write_bytes(content if isinstance(content, bytes) else content.encode())
+        return path
+
+    def test_a_table_json_and_a_drawing_are_made_of_modules(self):
+        source = self.file("a.dat", geometry())
+        out, drawing = self.folder / "a.json", self.folder / "a.svg"
+        done = run("scifi-geometry", source, "--json", out, "--svg", drawing)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        for words in ("tracker 1", "beam towards +z", "field 3 T", "1100.0000", "planes of stations 1 to 5", "-120.000"):
+            self.assertIn(words, done.stdout)
+        document = json.loads(out.read_text())
+        self.assertEqual([s["position"][2] for s in document["trackers"][0]["stations"]], [0, 200, 450, 750, 1100])
+        self.assertAlmostEqual(document["trackers"][0]["field"], 3.0)
+        self.assertEqual([p["channels"] for p in document["planes"]], [214, 214, 212])
+        root = xml.etree.ElementTree.parse(drawing).getroot()
+        self.assertEqual(root.tag, "{http://www.w3.org/2000/svg}svg")
+        texts = [e.text for e in root.iter("{http://www.w3.org/2000/svg}text")]
+        self.assertEqual(sum(t.startswith("station ") for t in texts), 5)
+        # The JSON says the same as the modules.
+        again = run("scifi-geometry", out)
+        self.assertEqual(again.returncode, 0, again.stderr)
+        self.assertEqual(again.stdout.splitlines()[1:], done.stdout.splitlines()[1:])
+
+    def test_the_other_programs_take_modules_and_their_field(self):
+        source = self.file("a.dat", geometry(field=2))
+        prefix = self.folder / "sim"
+        done = run("scifi-simulate", "--geometry", source, "--events", 20, "--pt", 10, 30, "--radius", 30, "--output", prefix)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("field 2 T", done.stdout)
+        done = run("scifi-reconstruct", f"{prefix}_digits.csv", "--geometry", source, "--output", self.folder / "t.csv")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("2 T, helices", done.stdout)
+        done = run("scifi-reconstruct", f"{prefix}_digits.csv", "--geometry", source, "--field", 3, "--output", self.folder / "t.csv")
+        self.assertIn("3 T, helices", done.stdout)
+
+    def test_bad_geometries_end_with_status_2_file_line_and_reason(self):
+        self.file("ring.dat", "Module Ring\n{\n  Module a.dat\n  {\n  }\n}\n")
+        good = geometry()
+        for content, words in (
+                ("", "describes no module"),
+                ("hello\n", ":1: 'hello': a geometry begins with"),
+                (good.replace("0.1 -0.2 200 mm", "0.1 -0.2 200"), "Position: is without a unit"),
+                (good.replace("0.1 -0.2 200 mm", "0.1 mm"), "Position: the line is too short"),
+                (good.replace("Module Station3\n", "Module Gone.dat { }\nModule Station3\n"), "Module Gone.dat: "),
+                (good.replace("Module Tracker\n", "Module Gone.dat\n{\n}\nModule Other\n{\n}\nModule Tracker\n").replace("Tracker 1", "Trakcer 1"), "Gone.dat"),
+                (good.replace("Module Station3\n", "Module ring.dat\n{\n}\nModule Station3\n"), "refers to itself: a.dat -> ring.dat -> a.dat"),
+                (good.replace("Test", "T\u00e9st").encode("latin-1"), ":1: is not ASCII text: it holds the byte 233"),
+                (good.encode("utf-16"), ":1: is not ASCII text"),
+                (good.replace("CentralFibre 105.5", "CentralFibre 1e300"), "CentralFibre: '1e300'"),
+                (good[:-4], "is not closed by }")):
+            with self.subTest(words):
+                done = run("scifi-geometry", self.file("a.dat", content), "--json", self.folder / "a.json", "--svg", self.folder / "a.svg")
+                self.assertEqual(done.returncode, 2, done.stderr)
+                self.assertIn(words, done.stderr)
+                self.assertIn(".dat", done.stderr)
+                self.assertFalse(list(self.folder.glob("a.json*")) + list(self.folder.glob("a.svg*")))
+
+    def test_bad_options_end_with_status_2(self):
+        source = self.file("a.dat", geometry())
+        for options, words in (((self.folder / "none.dat",), "none.dat: cannot be opened"), ((source, "--svg", source), "would overwrite what is read"),
+                               ((source, "--svg", self.folder / "x", "--json", self.folder / "x"), "the same file"),
+                               ((source, "--svg", self.folder / "no" / "a.svg"), "cannot be written"), ((), "GEOMETRY")):
+            done = run("scifi-geometry", *options)
+            self.assertEqual(done.returncode, 2, done.stderr)
+            self.assertIn(words, done.stderr)
+
+    @unittest.skipUnless(SHARED, "no external data")
+    def test_the_experiment_s_geometry_is_converted(self):
+        out = self.folder / "mice.json"
+        done = run("scifi-geometry", pathlib.Path(SHARED) / "mice" / "geometry" / "Step_4_def_5_2.dat", "--json", out)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("-3.9", done.stderr)  # what the coils make of it
+        theirs = json.loads((pathlib.Path(SHARED) / "g4" / "geometry.json").read_text())
+        ours = json.loads(out.read_text())
+        for a, b in zip(ours["trackers"], theirs["trackers"]):
+            self.assertEqual([s["position"] for s in a["stations"]], [s["position"] for s in b["stations"]])
+            self.assertEqual(a["beam_direction"], b["beam_direction"])
+
+
+if __name__ == "__main__":
+    BIN = pathlib.Path(sys.argv.pop(1))
+    if not (BIN / "scifi-geometry").exists():
+        print(f"skipped: no {BIN / 'scifi-geometry'}")
+        sys.exit(SKIPPED)
+    unittest.main()
