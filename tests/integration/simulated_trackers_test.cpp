@@ -114,7 +114,6 @@ TEST_CASE("two and four muons at once are found and told apart", "[integration]"
     CHECK(s.all.value() >= efficiency);
     CHECK(s.ghosts_per_expected() <= 0.05);
     CHECK(s.charge_above_5.value() >= 0.995);
-    sampled.unit_mean(s.chi2_per_ndf);
   };
   check("tkd_multi2", 0.97);
   check("tkd_multi4", 0.93);
