@@ -93,17 +93,17 @@ void print_table(const std::vector<condition>& records, const std::vector<condit
   if (in_force != nullptr) fmt::print("*: in force\n");
 }
 
-/// The checks of the library, and those whose readers need the file itself or, for cabling, the geometry that goes with it.
-std::vector<scifi::document_check> checks_for(const options& o, scifi::run_number first_run) {
+/// The checks of the library, and those whose readers need the file itself or, for cabling, the geometry that goes with it as known when it was recorded.
+std::vector<scifi::document_check> checks_for(const options& o, const scifi::new_condition& given) {
   std::vector<scifi::document_check> checks = scifi::built_in_document_checks();
   checks.push_back({condition_kind::bad_channels, [&o](const std::string&, const std::string&) {
                       static_cast<void>(scifi::read_bad_channels(o.file));
                       return true;
                     }});
-  checks.push_back({condition_kind::cabling, [&o, first_run](const std::string&, const std::string&) {
+  checks.push_back({condition_kind::cabling, [&o, &given](const std::string&, const std::string&) {
                       if (!fs::exists(o.store)) return false;
                       const conditions_store store(o.store);
-                      const auto geometry = store.find({.kind = condition_kind::geometry, .run = first_run, .as_of = {}, .tracker = {}});
+                      const auto geometry = store.find({.kind = condition_kind::geometry, .run = given.runs.first, .as_of = given.recorded, .tracker = {}});
                       if (!geometry) return false;
                       const std::string document = store.document(*geometry);
                       const std::string name = fmt::format("{}: record {}", o.store, geometry->id);
@@ -117,7 +117,7 @@ void add(const options& o) {
   scifi::new_condition given{.kind = *kind_of(o), .tracker = o.tracker, .runs = option_value("--runs", [&] { return scifi::run_interval_from(o.runs); }),
                              .recorded = {}, .source = fs::path(o.file).filename().string(), .comment = o.comment, .document = scifi::read_document(o.file)};
   if (!o.recorded.empty()) given.recorded = option_value("--recorded", [&] { return scifi::recorded_time_from(o.recorded); });
-  const bool checked = check_document(checks_for(o, given.runs.first), given.kind, given.document, o.file);
+  const bool checked = check_document(checks_for(o, given), given.kind, given.document, o.file);
   conditions_store store(o.store, conditions_store::access::write);
   const condition added = store.add(given);
   const char* const unchecked = added.kind == condition_kind::cabling ? "; not checked, for the store has no geometry for its first run"
