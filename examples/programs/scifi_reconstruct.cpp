@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <string>
 #include <system_error>
+#include <utility>
 
 #include <fmt/format.h>
 #include <oneapi/tbb/global_control.h>
@@ -18,7 +19,7 @@
 #include <scifi/chain/reconstruction.hpp>
 #include <scifi/core/units.hpp>
 #include <scifi/geometry/mice.hpp>
-#include <scifi/io/geometry_json.hpp>
+#include <scifi/io/any_geometry.hpp>
 
 #include "conditions/stored_conditions.hpp"
 #include "reconstruct/event_pipeline.hpp"
@@ -34,6 +35,7 @@ namespace fs = std::filesystem;
 struct options {
   stored_conditions stored;
   std::string digits, geometry, output = "tracks.csv", track_points, particle = "mu";
+  std::optional<double> given_field;  // tesla
   double field = 3.0, min_npe = 2.0, momentum = 200.0;
   int threads = 0;
 };
@@ -55,7 +57,7 @@ void check(const options& o) {
   const auto require = [](bool good, const char* what) {
     if (!good) throw std::invalid_argument(what);
   };
-  require(std::isfinite(o.field), "--field: not a finite number");
+  require(std::isfinite(o.given_field.value_or(0.0)), "--field: not a finite number");
   require(std::isfinite(o.min_npe) && o.min_npe >= 0.0, "--min-npe: not a finite number from 0 on");
   require(std::isfinite(o.momentum) && o.momentum > 0.0, "--momentum: not a finite number above 0");
   require(o.threads >= 0 && o.threads <= 1024, "--threads: not in 0 .. 1024");
@@ -102,13 +104,17 @@ void run(options& o) {
   check(o);
   const scifi::particle hypothesis = hypothesis_named(o.particle);
   scifi::detector detector = scifi::mice::trackers();
-  scifi::reconstruction_options choice{
-      .field = o.field * scifi::units::tesla, .hypothesis = hypothesis, .min_npe = o.min_npe, .line_momentum = o.momentum, .fibre = {}};
+  scifi::reconstruction_options choice{.hypothesis = hypothesis, .min_npe = o.min_npe, .line_momentum = o.momentum, .fibre = {}};
   if (!o.geometry.empty()) {
-    const nlohmann::json document = scifi::read_json(o.geometry);
-    detector = scifi::geometry_from_json(document, o.geometry);
-    choice.fibre = scifi::fibre_from_json(document, o.geometry);
+    scifi::any_geometry geometry = scifi::read_any_geometry(o.geometry);
+    for (const std::string& note : geometry.notes) fmt::print(stderr, "note: {}\n", note);
+    if (!o.given_field)
+      if (const auto field = geometry.common_field()) o.field = *field / scifi::units::tesla;
+    detector = std::move(geometry.detector);
+    choice.fibre = geometry.fibre;
   }
+  o.field = o.given_field.value_or(o.field);
+  choice.field = o.field * scifi::units::tesla;
   const auto reconstruct = scifi::make_reconstruction(detector, choice);
 
   event_source source(o.digits, detector);
@@ -148,9 +154,9 @@ int main(int argc, char** argv) {
   CLI::App app{"Reconstructs tracks from the digits of scintillating-fibre trackers. Units: mm, ns, MeV, MeV/c, tesla; tracker frame."};
   app.add_option("DIGITS", o.digits, "digits: CSV with the columns event, tracker, station, plane, channel, npe, or MICE JSON (.json); may be gzip")
       ->required();
-  app.add_option("--geometry", o.geometry, "geometry in JSON; the MICE trackers unless given");
+  app.add_option("--geometry", o.geometry, "geometry in JSON (.json) or MiceModules (.dat); the MICE trackers unless given");
   o.stored.offer(app);
-  app.add_option("--field", o.field, "uniform field along z of the tracker frame, tesla; 0: straight tracks")->capture_default_str();
+  app.add_option("--field", o.given_field, "uniform field along z of the tracker frame, tesla; 0: straight tracks; unless given that of the geometry, else 3");
   app.add_option("--particle", o.particle, "particle whose mass the fit assumes: mu, pi, e, p")->capture_default_str();
   app.add_option("--min-npe", o.min_npe, "least light of a digit, photo-electrons")->capture_default_str();
   app.add_option("--momentum", o.momentum, "momentum along z assumed for straight tracks, MeV/c")->capture_default_str();

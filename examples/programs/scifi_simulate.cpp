@@ -10,6 +10,7 @@
 #include <stdexcept>
 #include <string>
 #include <system_error>
+#include <utility>
 #include <vector>
 
 #include <CLI/CLI.hpp>
@@ -19,8 +20,8 @@
 
 #include <scifi/geometry/mice.hpp>
 #include <scifi/hit_to_digit/digitiser.hpp>
+#include <scifi/io/any_geometry.hpp>
 #include <scifi/io/atomic_file.hpp>
-#include <scifi/io/geometry_json.hpp>
 #include <scifi/particle_to_hit/transport.hpp>
 
 #include "conditions/stored_conditions.hpp"
@@ -39,6 +40,7 @@ struct options {
   std::string tracker = "both";
   std::uint64_t seed = 1;
   std::string output = "simulated";
+  std::optional<double> given_field;  // tesla
   double field = 3.0;
   std::vector<double> pz{100.0, 280.0};
   std::vector<double> pt{0.0, 90.0};
@@ -101,7 +103,15 @@ simulate::beam beam_of(const options& o) {
 void run(options& o) {
   const auto start = std::chrono::steady_clock::now();
   o.stored.fill_in(o.geometry, scifi::condition_kind::geometry);
-  const scifi::detector detector = o.geometry.empty() ? scifi::mice::trackers() : scifi::read_geometry(o.geometry);
+  scifi::detector detector = scifi::mice::trackers();
+  if (!o.geometry.empty()) {
+    scifi::any_geometry geometry = scifi::read_any_geometry(o.geometry);
+    for (const std::string& note : geometry.notes) fmt::print(stderr, "note: {}\n", note);
+    if (!o.given_field)
+      if (const auto field = geometry.common_field()) o.field = *field / scifi::units::tesla;
+    detector = std::move(geometry.detector);
+  }
+  o.field = o.given_field.value_or(o.field);
 
   const simulate::beam beam = beam_of(o);
   long events = o.events;
@@ -169,7 +179,7 @@ int main(int argc, char** argv) {
   app.add_option("--tracker", o.tracker, "0 (upstream), 1 (downstream), or both, each with its own tracks in the same events")->capture_default_str();
   app.add_option("--seed", o.seed, "seed; the same seed gives the same events for any number of threads")->capture_default_str();
   app.add_option("--output", o.output, "prefix of the files that are written")->capture_default_str();
-  app.add_option("--field", o.field, "uniform field along z of the tracker frame, tesla")->check(CLI::Range(-100.0, 100.0))->capture_default_str();
+  app.add_option("--field", o.given_field, "uniform field along z of the tracker frame, tesla; unless given that of the geometry, else 3")->check(CLI::Range(-100.0, 100.0));
   app.add_option("--beam", o.beam, "flat or gaussian")->check(CLI::IsMember({"flat", "gaussian"}))->capture_default_str();
   app.add_option("--particles", o.particles, "particles from a table instead: event,tracker,pdg,x_mm,y_mm,z_mm,t_ns,px_MeV,py_MeV,pz_MeV in the tracker's frame");
   app.add_option("--emittance", o.emittance, "Gaussian beam: normalised transverse emittance, mm")->capture_default_str();
@@ -183,7 +193,7 @@ int main(int argc, char** argv) {
   app.add_option("--particle", o.particle, "mu+, mu-, pi+, pi-, e+, e-, p")->capture_default_str();
   app.add_option("--tracks-per-event", o.tracks_per_event, "particles in each simulated tracker of an event")->check(CLI::Range(0, 100000))->capture_default_str();
   app.add_option("--noise-rate", o.noise_rate, "chance of thermal photo-electrons, per channel and event")->check(CLI::Range(0.0, 0.999))->capture_default_str();
-  app.add_option("--geometry", o.geometry, "geometry in JSON; the MICE trackers unless given");
+  app.add_option("--geometry", o.geometry, "geometry in JSON (.json) or MiceModules (.dat); the MICE trackers unless given");
   o.stored.offer(app);
   app.add_option("--scattering", o.scattering, "coulomb (with tails), highland (Gaussian) or none")->check(CLI::IsMember({"coulomb", "highland", "none"}))->capture_default_str();
   app.add_option("--energy-loss", o.energy_loss, "collisions (fluctuating), mean or none")->check(CLI::IsMember({"collisions", "mean", "none"}))->capture_default_str();
