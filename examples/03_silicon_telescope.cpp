@@ -44,7 +44,7 @@ scifi::tracker telescope() {
     sensor.in_tracker = {{0.03 * n, -0.02 * n, 150.0 * n}, 5.0_mrad * n};
     for (const bool far_side : {false, true}) {
       scifi::plane strips;
-      strips.view = far_side ? "y" : "x";
+      strips.view = far_side ? 'y' : 'x';
       strips.angle = far_side ? 90.0_deg : 0.0;
       strips.channels = 768;
       strips.central_channel = 383.5;
