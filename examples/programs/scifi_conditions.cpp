@@ -18,6 +18,7 @@
 
 #include <scifi/conditions/conditions_store.hpp>
 #include <scifi/conditions/document_check.hpp>
+#include <scifi/io/any_geometry.hpp>
 #include <scifi/io/atomic_file.hpp>
 #include <scifi/io/bad_channels_text.hpp>
 #include <scifi/io/cabling_text.hpp>
@@ -113,10 +114,21 @@ std::vector<scifi::document_check> checks_for(const options& o, const scifi::new
   return checks;
 }
 
+/// MiceModules name other files: what goes into the store is all that they say, as JSON.
+void convert_mice_modules(const options& o, scifi::new_condition& given) {
+  if (given.kind != condition_kind::geometry || scifi::looks_like_json(o.file)) return;
+  const scifi::any_geometry geometry = scifi::read_any_geometry(o.file);
+  for (const std::string& note : geometry.notes) fmt::print(stderr, "note: {}\n", note);
+  constexpr int indentation = 1;
+  given.document = scifi::geometry_to_json(geometry).dump(indentation) + '\n';
+  given.source += " as JSON";
+}
+
 void add(const options& o) {
   scifi::new_condition given{.kind = *kind_of(o), .tracker = o.tracker, .runs = option_value("--runs", [&] { return scifi::run_interval_from(o.runs); }),
                              .recorded = {}, .source = fs::path(o.file).filename().string(), .comment = o.comment, .document = scifi::read_document(o.file)};
   if (!o.recorded.empty()) given.recorded = option_value("--recorded", [&] { return scifi::recorded_time_from(o.recorded); });
+  convert_mice_modules(o, given);
   const bool checked = check_document(checks_for(o, given), given.kind, given.document, o.file);
   conditions_store store(o.store, conditions_store::access::write);
   const condition added = store.add(given);
@@ -186,7 +198,7 @@ int main(int argc, char** argv) {
   const char* const as_of_help = "what was known on that day (all of it) or at that time; now unless given";
 
   CLI::App* const to_add = subcommand("add", "adds a document", add);
-  to_add->add_option("FILE", o.file, "the document; may be gzip, it is stored unpacked")->required();
+  to_add->add_option("FILE", o.file, "the document; may be gzip, it is stored unpacked; a geometry in MiceModules is stored as JSON")->required();
   to_add->add_option("--kind", o.kind, kinds)->required();
   to_add->add_option("--runs", o.runs, "first and last run it is valid for, 7000:7999; without an end 7000:")->required();
   to_add->add_option("--tracker", o.tracker, "the tracker it is for; all unless given")->check(CLI::NonNegativeNumber);

@@ -159,7 +159,7 @@ class Conditions(unittest.TestCase):
         for kind, name, words in (("geometry", "broken.json", "broken.json:2: is not JSON"), ("alignment", "empty.txt", "empty.txt: the file is empty"),
                                   ("geometry", "bad.json", "bad.json: trackers[0].stations[4].position: the station does not lie behind"),
                                   ("calibration", "calibration.json", "calibration.json: "), ("bad_channels", "bad.txt", "bad.txt:1: "),
-                                  ("geometry", "none.json", "none.json: cannot be opened"), ("geometry", ".", ".: cannot be read")):
+                                  ("geometry", "bad.txt", "bad.txt:1: "), ("geometry", "none.json", "none.json: cannot be opened"), ("geometry", ".", ".: cannot be read")):
             with self.subTest(name=name):
                 self.refused("add", "--kind", kind, "--runs", "1:", name, words=words)
                 self.assertEqual(self.files(), files)
@@ -254,6 +254,19 @@ class Conditions(unittest.TestCase):
         self.both_ways("scifi-simulate", ("--events", 40, "--tracker", 1, "--output", "s"), ("s_digits.csv", "s_truth.csv"))
         self.both_ways("scifi-reconstruct", ("s_digits.csv",), ("tracks.csv",))
         self.assertGreater(len((self.folder / "tracks.csv").read_text(encoding="ascii").splitlines()), 10)
+
+    @unittest.skipUnless(os.environ.get("SCIFI_SHARED_DATA"), "needs external data")
+    def test_the_experiments_own_geometry_is_stored_whole(self):
+        modules = pathlib.Path(os.environ["SCIFI_SHARED_DATA"]).resolve() / "mice" / "geometry" / "TrackerTest.dat"
+        self.on_store("add", "--kind", "geometry", "--runs", "7000:", modules)
+        self.on_store("get", "--kind", "geometry", "--run", "7000", "-o", "g.json")
+        self.assertEqual(len(json.loads((self.folder / "g.json").read_text(encoding="utf-8"))["trackers"]), 2)
+        made = []
+        for source in (["--geometry", modules], ["--conditions", "store.db", "--run", "7500"]):
+            done = self.program("scifi-simulate", *source, "--events", 20, "--field", 3, "--output", "s")
+            self.assertEqual(done.returncode, 0, done.stderr)
+            made.append((self.folder / "s_digits.csv").read_bytes())
+        self.assertEqual(made[0], made[1])
 
     def test_a_program_without_a_geometry_for_its_run_stops(self):
         self.add_geometries()

@@ -58,10 +58,7 @@ class stored_conditions {
         throw scifi::input_error(store_, 0, fmt::format("record {}", c.id),
                                  fmt::format("is in force for tracker {} alone, where one {} for all trackers is needed", c.tracker.value_or(-1), name_of(kind)));
     const std::string document = store.document(found);
-    // The ending of the source tells readers the format.
-    std::filesystem::path source = found.source;
-    if (source.extension() == ".gz") source = source.stem();
-    const std::filesystem::path file = folder() / fmt::format("{}_record_{}{}", name_of(kind), found.id, source.extension().string());
+    const std::filesystem::path file = folder() / fmt::format("{}_record_{}", name_of(kind), found.id);
     scifi::atomic_file out(file);
     out.write(document);
     out.commit();
