@@ -186,11 +186,16 @@ class combination_search {
     c.z = fit.z();
     c.chi2 = fit.chi2();
     c.ndf = ndf;
+    double light = 0.0;
+    double clusters = 0.0;
     for (const int point : chosen_) {
       const space_point& p = points_[static_cast<std::size_t>(point)];
+      light += p.npe;
+      clusters += static_cast<double>(p.clusters.size());
       c.chi2 += p.chi2;
       c.ndf += static_cast<int>(p.clusters.size()) - 2;
     }
+    if (light < o.least_light * clusters) return;
     c.seed = bent() ? seed_of_helix(fit, o.field) : seed_of_line(fit, where_.travel * o.line_charge / o.line_momentum);
     // The same points by another hypothesis: keep the better.
     if (!work_.found.empty() && std::equal(c.space_points.begin(), c.space_points.end(), work_.found.back().space_points.begin(), work_.found.back().space_points.end())) {

@@ -21,6 +21,7 @@ struct track_finder_options {
   double cluster_gain = 10.0;      ///< chi2 that one cluster more is worth when candidates compete
   double typical_q_over_pz = 0.006;  ///< 1/(MeV/c): centre, with either sign, of the prior of q/pz ...
   double spread_q_over_pz = 0.004;   ///< ... and its width; matters only where the field hardly bends the track
+  double least_light = 5.0;        ///< photo-electrons per cluster, mean of a candidate: a particle leaves about 12, thermal noise 2 to 3
   int max_shared_clusters = 3;     ///< with better candidates: two tracks may cross the same channel
   int max_arc_fits = 100000;       ///< bound on the search in one tracker
 };

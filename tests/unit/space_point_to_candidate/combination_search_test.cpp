@@ -26,6 +26,7 @@ void add_helix(const vector<double, 5>& start, int first_cluster, std::vector<sp
     const vector<double, 5> at = helix_propagator{field}.propagate(start, p.z).state;
     p.position = {at[slope_state::x], at[slope_state::y]};
     p.covariance = 0.12 * matrix<double, 2, 2>::Identity();
+    p.npe = 36.0;
     for (int i = 0; i < 3; ++i) p.clusters.push_back(first_cluster++);
     points.push_back(p);
   }
@@ -92,6 +93,14 @@ TEST_CASE("a point with two clusters taken is left out, one with a single one is
   search(4, true);
   REQUIRE(b.work.found.size() == 1);
   CHECK(b.work.found[0].space_points.size() == 4);
+}
+
+TEST_CASE("points as dim as thermal noise are no candidate", "[space_point_to_candidate]") {
+  bench b(1);
+  for (space_point& p : b.points) p.npe = 3 * 2.5;
+  combination_search search(b.setting, b.points, b.work);
+  search(5, false);
+  CHECK(b.work.found.empty());
 }
 
 TEST_CASE("four of five stations are five choices", "[space_point_to_candidate]") {
