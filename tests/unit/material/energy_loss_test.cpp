@@ -60,21 +60,22 @@ TEST_CASE("Mode, median and mean of a thin layer are in this order", "[material]
 }
 
 TEST_CASE("In a thick or slow passage the most probable loss stays at or below the mean", "[material]") {
+  constexpr double rounding = 1e-13;  // the bound is worked out in another order than the mean: some tens of roundings
   for (const double p : {20.0, 40.0, 80.0, 200.0}) {
     for (const double thickness : {0.6273, 10.0, 300.0}) {
       const slab s = whole(materials::liquid_hydrogen, thickness);
       const auto mean = mean_energy_loss{}.loss(p, muon_plus, s, 1.0);
       for (const double n : {1.0, 15.0, 1000.0}) {
-        CHECK(most_probable_energy_loss{n}.loss(p, muon_plus, s, 1.0).value <= mean.value);
-        CHECK(median_energy_loss{n}.loss(p, muon_plus, s, 1.0).value <= mean.value);
+        CHECK(most_probable_energy_loss{n}.loss(p, muon_plus, s, 1.0).value <= mean.value * (1.0 + rounding));
+        CHECK(median_energy_loss{n}.loss(p, muon_plus, s, 1.0).value <= mean.value * (1.0 + rounding));
       }
     }
   }
   const slab thick = whole(materials::polystyrene, 50.0);
   const auto bounded = most_probable_energy_loss{}.loss(60.0, muon_plus, thick, 1.0);
   const auto mean = mean_energy_loss{}.loss(60.0, muon_plus, thick, 1.0);
-  CHECK(bounded.value == mean.value);
-  CHECK(bounded.d_value_d_p == mean.d_value_d_p);
+  CHECK(bounded.value == Approx(mean.value).epsilon(rounding));
+  CHECK(bounded.d_value_d_p == Approx(mean.d_value_d_p).epsilon(rounding));
 }
 
 TEST_CASE("A layer too thin for Landau's formula loses nothing rather than gaining", "[material]") {
