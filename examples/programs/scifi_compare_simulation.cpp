@@ -19,6 +19,7 @@
 #include <scifi/particle_to_hit/transport.hpp>
 
 #include "compare_simulation/quantities.hpp"
+#include "run_program.hpp"
 
 namespace {
 
@@ -120,7 +121,6 @@ bool run(const options& o) {
 
 int main(int argc, char** argv) {
   constexpr int apart = 1;
-  constexpr int given_wrongly = 2;
   options o;
   CLI::App app{"Compares this library's simulation with another one: the same particles through the same tracker."};
   app.add_option("--hits", o.hits, "the other simulation's energy deposits: event,track,parent,pdg,tracker,station,plane,fibre,edep_MeV")->required();
@@ -130,16 +130,7 @@ int main(int argc, char** argv) {
   app.add_option("--seed", o.seed, "seed")->capture_default_str();
   app.add_option("--geometry", o.geometry, "geometry in JSON; the MICE trackers unless given");
   app.add_flag("--check", o.check, "exit with 1 when a figure is further off than its limit and two statistical errors");
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& e) {
-    return app.exit(e) == 0 ? 0 : given_wrongly;
-  }
-  try {
-    const bool all_close = run(o);
-    return o.check && !all_close ? apart : 0;
-  } catch (const std::exception& e) {
-    fmt::print(stderr, "scifi-compare-simulation: {}\n", e.what());
-    return given_wrongly;
-  }
+  bool all_close = true;
+  const int status = run_program("scifi-compare-simulation", app, argc, argv, [&] { all_close = run(o); });
+  return status == 0 && o.check && !all_close ? apart : status;
 }

@@ -23,6 +23,8 @@
 #include <scifi/io/bad_channels_text.hpp>
 #include <scifi/io/cabling_text.hpp>
 
+#include "run_program.hpp"
+
 #ifndef SCIFI_VERSION
 #define SCIFI_VERSION "of unknown version"
 #endif
@@ -180,8 +182,6 @@ void history(const options& o) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  constexpr int given_wrongly = 2;
-  constexpr int not_done = 3;
   options o;
   void (*command)(const options&) = nullptr;
   CLI::App app{"A store of documents that describe the detector, each for an interval of runs and recorded at a time. For a run, the latest recorded is in force.\n"
@@ -221,22 +221,5 @@ int main(int argc, char** argv) {
   to_tell->add_option("--kind", o.kind, kinds)->required();
   to_tell->add_option("--run", o.run, "number of the run")->required();
   to_tell->add_option("--as-of", o.as_of, as_of_help);
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& e) {
-    return app.exit(e) == 0 ? 0 : given_wrongly;
-  }
-  try {
-    command(o);
-  } catch (const scifi::input_error& e) {
-    fmt::print(stderr, "scifi-conditions: {}\n", e.what());
-    return given_wrongly;
-  } catch (const std::invalid_argument& e) {
-    fmt::print(stderr, "scifi-conditions: {}\n", e.what());
-    return given_wrongly;
-  } catch (const std::exception& e) {
-    fmt::print(stderr, "scifi-conditions: {}\n", e.what());
-    return not_done;
-  }
-  return 0;
+  return run_program("scifi-conditions", app, argc, argv, [&] { command(o); });
 }

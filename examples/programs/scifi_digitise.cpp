@@ -27,6 +27,7 @@
 #include <scifi/readout_to_digit/readout_digitiser.hpp>
 
 #include "conditions/stored_conditions.hpp"
+#include "run_program.hpp"
 
 #ifndef SCIFI_VERSION
 #define SCIFI_VERSION "of unknown version"
@@ -159,8 +160,6 @@ void run(options& o) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  constexpr int given_wrongly = 2;
-  constexpr int not_done = 3;
   options o;
   CLI::App app{"Makes digits of the raw ADC counts of scintillating-fibre trackers. All inputs may be gzip."};
   app.add_option("RAW", o.raw, "raw counts: CSV with the columns event, board, bank (of the board), channel, adc")->required();
@@ -172,22 +171,5 @@ int main(int argc, char** argv) {
   app.add_option("--min-npe", o.min_npe, "least light of a digit, photo-electrons")->capture_default_str();
   app.add_option("-o,--output", o.output, "digits: MICE JSON, one event a spill, where the name ends in .json, else CSV")->capture_default_str();
   app.set_version_flag("--version", SCIFI_VERSION);
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& e) {
-    return app.exit(e) == 0 ? 0 : given_wrongly;
-  }
-  try {
-    run(o);
-  } catch (const scifi::input_error& e) {
-    fmt::print(stderr, "scifi-digitise: {}\n", e.what());
-    return given_wrongly;
-  } catch (const std::invalid_argument& e) {
-    fmt::print(stderr, "scifi-digitise: {}\n", e.what());
-    return given_wrongly;
-  } catch (const std::exception& e) {
-    fmt::print(stderr, "scifi-digitise: {}\n", e.what());
-    return not_done;
-  }
-  return 0;
+  return run_program("scifi-digitise", app, argc, argv, [&o] { run(o); });
 }

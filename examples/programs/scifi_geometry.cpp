@@ -15,6 +15,8 @@
 #include <scifi/io/atomic_file.hpp>
 #include <scifi/io/geometry_svg.hpp>
 
+#include "run_program.hpp"
+
 #ifndef SCIFI_VERSION
 #define SCIFI_VERSION "of unknown version"
 #endif
@@ -117,30 +119,11 @@ void run(const options& o) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  constexpr int given_wrongly = 2;
-  constexpr int not_done = 3;
   options o;
   CLI::App app{"Prints a geometry of trackers as a table, converts it to JSON and draws it."};
   app.add_option("GEOMETRY", o.geometry, "geometry in JSON (.json) or MiceModules (.dat); may be gzip")->required();
   app.add_option("--json", o.json, "write the geometry as JSON to this file");
   app.add_option("--svg", o.svg, "draw the geometry to this file: planes from the front, stations from the side");
   app.set_version_flag("--version", SCIFI_VERSION);
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& e) {
-    return app.exit(e) == 0 ? 0 : given_wrongly;
-  }
-  try {
-    run(o);
-  } catch (const scifi::input_error& e) {
-    fmt::print(stderr, "scifi-geometry: {}\n", e.what());
-    return given_wrongly;
-  } catch (const std::invalid_argument& e) {
-    fmt::print(stderr, "scifi-geometry: {}\n", e.what());
-    return given_wrongly;
-  } catch (const std::exception& e) {
-    fmt::print(stderr, "scifi-geometry: {}\n", e.what());
-    return not_done;
-  }
-  return 0;
+  return run_program("scifi-geometry", app, argc, argv, [&o] { run(o); });
 }

@@ -23,6 +23,7 @@
 
 #include "conditions/stored_conditions.hpp"
 #include "reconstruct/event_pipeline.hpp"
+#include "run_program.hpp"
 
 #ifndef SCIFI_VERSION
 #define SCIFI_VERSION "of unknown version"
@@ -148,8 +149,6 @@ void run(options& o) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  constexpr int given_wrongly = 2;
-  constexpr int not_done = 3;
   options o;
   CLI::App app{"Reconstructs tracks from the digits of scintillating-fibre trackers. Units: mm, ns, MeV, MeV/c, tesla; tracker frame."};
   app.add_option("DIGITS", o.digits, "digits: CSV with the columns event, tracker, station, plane, channel, npe, or MICE JSON (.json); may be gzip")
@@ -164,22 +163,5 @@ int main(int argc, char** argv) {
   app.add_option("--track-points", o.track_points, "the tracks at every plane, CSV; not written unless given");
   app.add_option("--threads", o.threads, "number of threads; 0: all cores. The output does not depend on it")->capture_default_str();
   app.set_version_flag("--version", SCIFI_VERSION);
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& e) {
-    return app.exit(e) == 0 ? 0 : given_wrongly;
-  }
-  try {
-    run(o);
-  } catch (const scifi::input_error& e) {
-    fmt::print(stderr, "scifi-reconstruct: {}\n", e.what());
-    return given_wrongly;
-  } catch (const std::invalid_argument& e) {
-    fmt::print(stderr, "scifi-reconstruct: {}\n", e.what());
-    return given_wrongly;
-  } catch (const std::exception& e) {
-    fmt::print(stderr, "scifi-reconstruct: {}\n", e.what());
-    return not_done;
-  }
-  return 0;
+  return run_program("scifi-reconstruct", app, argc, argv, [&o] { run(o); });
 }

@@ -28,6 +28,7 @@
 #include "simulate/beam.hpp"
 #include "simulate/make_event.hpp"
 #include "simulate/tables.hpp"
+#include "run_program.hpp"
 
 namespace {
 
@@ -171,8 +172,6 @@ void run(options& o) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  constexpr int given_wrongly = 2;
-  constexpr int not_written = 3;
   options o;
   CLI::App app{"Simulates particles in scintillating-fibre trackers: PREFIX_digits.csv and PREFIX_truth.csv. Units: mm, ns, MeV, MeV/c, tesla."};
   const CLI::Option* const events = app.add_option("--events", o.events, "number of events; with --particles all of the file unless given")->check(CLI::Range(1L, 1000000000L))->capture_default_str();
@@ -200,23 +199,8 @@ int main(int argc, char** argv) {
   app.add_flag("--hits", o.hits, "write PREFIX_hits.csv, _sources.csv and _particles.csv too: energy in each fibre core, particles behind each digit, where they come from");
   app.add_flag("--no-decays", o.no_decays, "muons and pions do not decay");
   app.add_option("--threads", o.threads, "number of threads; 0: all cores")->check(CLI::Range(0, 1024))->capture_default_str();
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& e) {
-    return app.exit(e) == 0 ? 0 : given_wrongly;
-  }
-  o.events_given = events->count() > 0;
-  try {
+  return run_program("scifi-simulate", app, argc, argv, [&] {
+    o.events_given = events->count() > 0;
     run(o);
-  } catch (const scifi::input_error& e) {
-    fmt::print(stderr, "scifi-simulate: {}\n", e.what());
-    return given_wrongly;
-  } catch (const std::invalid_argument& e) {
-    fmt::print(stderr, "scifi-simulate: {}\n", e.what());
-    return given_wrongly;
-  } catch (const std::exception& e) {
-    fmt::print(stderr, "scifi-simulate: {}\n", e.what());
-    return not_written;
-  }
-  return 0;
+  });
 }

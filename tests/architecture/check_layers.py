@@ -58,6 +58,7 @@ WITHOUT_TEST = {
     "event/digit.hpp": "data without behaviour",
     "event/space_point.hpp": "data without behaviour",
     "event/track.hpp": "data without behaviour",
+    "track_model/q_over_pz_prior.hpp": "data without behaviour",
 }
 
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]')

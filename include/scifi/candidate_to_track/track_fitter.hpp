@@ -26,6 +26,7 @@
 #include <scifi/track_model/helix_propagator.hpp>
 #include <scifi/track_model/line_propagator.hpp>
 #include <scifi/track_model/material_noise.hpp>
+#include <scifi/track_model/q_over_pz_prior.hpp>
 
 namespace scifi {
 
@@ -37,8 +38,7 @@ struct track_fit_options {
   double settled = 0.01;             ///< no further pass where q/pz changed by less than this share, and is known to twice it
   double position_spread = 50.0;     ///< mm, about the seed: wide, the data decide
   double slope_spread = 0.5;         ///< about the seed
-  double typical_q_over_pz = 0.006;  ///< 1/(MeV/c): centre, with the seed's sign, of the prior of q/pz ...
-  double spread_q_over_pz = 0.004;   ///< ... and its width; matters only where the field hardly bends the track
+  q_over_pz_prior prior{};           ///< with the sign of the seed
 };
 
 /// Candidates to tracks: a Kalman filter over their clusters, one coordinate each, from the last station to the reference surface at station 1, and a smoother.
@@ -97,8 +97,8 @@ class track_fitter {
 
     if (c.shape == track_shape::helix) {
       kalman::estimate<double, 5> start = wide<slope_state>(seed);
-      start.mean[slope_state::q_over_pz] = std::copysign(options_.typical_q_over_pz, k);
-      start.covariance(slope_state::q_over_pz, slope_state::q_over_pz) = options_.spread_q_over_pz * options_.spread_q_over_pz;
+      start.mean[slope_state::q_over_pz] = std::copysign(options_.prior.typical, k);
+      start.covariance(slope_state::q_over_pz, slope_state::q_over_pz) = options_.prior.spread * options_.prior.spread;
       fit<slope_state>(helix_, start, seed, clusters, t, track_points, work.helix, work.cluster_at, [](const auto& e) { return e; });
     } else {
       const vector<double, 4> line = slopes_to_line(seed).state;

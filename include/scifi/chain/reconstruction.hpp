@@ -117,6 +117,7 @@ struct reconstruction_options {
   track_fit_options fitting;
   fitting.field = options.field;
   fitting.line_momentum = options.line_momentum;
+  fitting.prior = finding.prior;
 
   cluster_finder<fibre_resolution> clusters;
   clusters.min_npe = options.min_npe;

@@ -31,7 +31,7 @@ inline constexpr material liquid_hydrogen{"liquid hydrogen", 7.080e-2,         d
 inline constexpr material lithium_hydride{
     "lithium hydride", 0.820, detail::in_mm(79.62, 0.820), 0.50321, 36.5 * units::eV, {0.90567, 2.5849, -0.0988, 1.4515, 2.3580, 0.0}};
 inline constexpr material air{"air", 1.205e-3, detail::in_mm(36.62, 1.205e-3), 0.49919, 85.7 * units::eV, {0.10914, 3.3994, 1.7418, 4.2759, 10.5961, 0.0}};
-/// Neither scatters nor slows; the excitation energy is a placeholder under a logarithm that is multiplied by zero.
+/// Neither scatters nor slows; the excitation energy stands under a logarithm that is multiplied by zero, any positive number does.
 inline constexpr material vacuum{"vacuum", 0.0, std::numeric_limits<double>::infinity(), 0.0, 1.0 * units::eV, {0.0, 3.0, 2.0, 4.0, 10.0, 0.0}};
 
 /// The same medium at another density (g/cm3): the radiation length scales, the density-effect parameters stay,

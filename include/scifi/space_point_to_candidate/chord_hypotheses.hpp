@@ -31,7 +31,7 @@ class chord_hypotheses {
   /// `first` and `middle` are the indices of the first two stations, for their scattering; `gate` is the largest squared deviation of the length.
   chord_hypotheses(const track_finder_options& options, const station_scattering& scattering, std::size_t first, std::size_t middle, double z1, double z2, double z3, double gate)
       : options_(options), scattering_(scattering), middle_(middle), step1_(z2 - z1), step2_(z3 - z2), gate_(gate), largest_(std::abs(options.field) / options.smallest_pz) {
-    const double slowest = 1.0 / (options.typical_q_over_pz + options.spread_q_over_pz);
+    const double slowest = 1.0 / (options.prior.typical + options.prior.spread);
     widest_scatter_ = scattering.slope_variance(middle, slowest, 0.0) * square(step2_);
     angle_scatter_ = scattering.slope_variance(first, expected_momentum(options, 0.0, 0.0), 0.0) * square(step1_ + step2_);
     shortest_ratio_ = longest_ratio_ = step2_ / step1_;
@@ -70,7 +70,7 @@ class chord_hypotheses {
     constexpr double clear = 16.0;  // a chord of four standard deviations has a direction
     const double error = a.variance + b.variance + angle_scatter_;
     if (norm(first) < clear * error || norm(second) < clear * error)
-      for (const double sign : {1.0, -1.0}) out.push_back({sign * options_.typical_q_over_pz * options_.field, 3});
+      for (const double sign : {1.0, -1.0}) out.push_back({sign * options_.prior.typical * options_.field, 3});
     return out;
   }
 

@@ -89,8 +89,8 @@ class combination_search {
     arc_prior p;
     p.slope_variance = 0.25 * o.largest_slope * o.largest_slope;
     if (bent()) {
-      p.curvature = std::copysign(o.typical_q_over_pz * o.field, w);
-      p.curvature_variance = o.spread_q_over_pz * o.spread_q_over_pz * o.field * o.field;
+      p.curvature = std::copysign(o.prior.typical * o.field, w);
+      p.curvature_variance = o.prior.spread * o.prior.spread * o.field * o.field;
     }
     return p;
   }
@@ -114,7 +114,7 @@ class combination_search {
     if (!bent()) return fit;
     for (int i = 0; i < iterations; ++i) {
       const double step = fit.curvature_step();
-      const double limit = 0.5 * std::abs(options_.typical_q_over_pz * options_.field);
+      const double limit = 0.5 * std::abs(options_.prior.typical * options_.field);
       fit = pass(fit.curvature() + std::clamp(step, -limit, limit), norm(fit.slope()));
       if (step * step < 0.01 * fit.curvature_variance()) break;
     }

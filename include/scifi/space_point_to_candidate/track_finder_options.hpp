@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <scifi/track_model/q_over_pz_prior.hpp>
+
 namespace scifi {
 
 /// What pattern recognition may assume and where it cuts.
@@ -19,8 +21,7 @@ struct track_finder_options {
   double gate = 30.0;              ///< the same (p = 3e-7) ...
   double chi2_per_ndf = 12.0;      ///< ... in the second search, for tracks that scattered hard
   double cluster_gain = 10.0;      ///< chi2 that one cluster more is worth when candidates compete
-  double typical_q_over_pz = 0.006;  ///< 1/(MeV/c): centre, with either sign, of the prior of q/pz ...
-  double spread_q_over_pz = 0.004;   ///< ... and its width; matters only where the field hardly bends the track
+  q_over_pz_prior prior{};         ///< of either sign of curvature
   double least_light = 5.0;        ///< photo-electrons per cluster, mean of a candidate: a particle leaves about 12, thermal noise 2 to 3
   int max_shared_clusters = 3;     ///< with better candidates: two tracks may cross the same channel
   int max_arc_fits = 100000;       ///< bound on the search in one tracker
@@ -30,7 +31,7 @@ struct track_finder_options {
 /// one that does not scatter; the momentum given where there is no field.
 [[nodiscard]] inline double expected_momentum(const track_finder_options& o, double w, double t2) {
   if (o.field == 0.0) return o.line_momentum;
-  const double least = 0.5 * (o.typical_q_over_pz - 0.75 * o.spread_q_over_pz);
+  const double least = 0.5 * (o.prior.typical - 0.75 * o.prior.spread);
   return std::sqrt(1.0 + t2) / std::clamp(std::abs(w / o.field), least, 1.0 / o.smallest_pz);
 }
 

@@ -169,7 +169,7 @@ TEST_CASE("a helix without noise is found again, from a seed that is off", "[can
         CHECK(r.ndf == 10);
         // Nothing but the wide prior is off: seed and typical q/pz.
         const track_fit_options o;
-        const double off = (std::abs(start[slope_state::q_over_pz]) - o.typical_q_over_pz) / o.spread_q_over_pz;
+        const double off = (std::abs(start[slope_state::q_over_pz]) - o.prior.typical) / o.prior.spread;
         CHECK(r.chi2 == Approx(2.0 * square(1.0 / o.position_spread) + 2.0 * square(0.005 / o.slope_spread) + square(off)).epsilon(0.01));
         CHECK(r.p_value == Approx(1.0).margin(1e-6));
         CHECK(r.z == 0.0);
