@@ -4,6 +4,7 @@ include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
 set(package_dir "${CMAKE_INSTALL_DATADIR}/cmake/scifi")
+set(CMAKE_INSTALL_DEFAULT_COMPONENT_NAME headers)
 install(DIRECTORY "${PROJECT_SOURCE_DIR}/include/" DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}" FILES_MATCHING PATTERN "*.hpp")
 install(TARGETS scifi EXPORT scifi_targets)
 install(EXPORT scifi_targets FILE scifi_targets.cmake NAMESPACE scifi:: DESTINATION "${package_dir}")
@@ -21,3 +22,11 @@ write_basic_package_version_file("${PROJECT_BINARY_DIR}/scifi-config-version.cma
   COMPATIBILITY SameMinorVersion ARCH_INDEPENDENT)
 install(FILES "${PROJECT_BINARY_DIR}/scifi-config.cmake" "${PROJECT_BINARY_DIR}/scifi-config-version.cmake"
   DESTINATION "${package_dir}")
+
+# pkg-config, for builds without CMake; finds its prefix from its own place, so that the tree can be moved.
+configure_file("${PROJECT_SOURCE_DIR}/cmake/scifi.pc.in" "${PROJECT_BINARY_DIR}/scifi.pc" @ONLY)
+install(FILES "${PROJECT_BINARY_DIR}/scifi.pc" DESTINATION "${CMAKE_INSTALL_DATADIR}/pkgconfig")
+
+if(PROJECT_IS_TOP_LEVEL)
+  include("${PROJECT_SOURCE_DIR}/packaging/debian.cmake")
+endif()

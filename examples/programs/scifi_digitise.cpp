@@ -25,13 +25,10 @@
 #include <scifi/io/mice_json_writer.hpp>
 #include <scifi/io/raw_reader.hpp>
 #include <scifi/readout_to_digit/readout_digitiser.hpp>
+#include <scifi/version.hpp>
 
 #include "conditions/stored_conditions.hpp"
 #include "run_program.hpp"
-
-#ifndef SCIFI_VERSION
-#define SCIFI_VERSION "of unknown version"
-#endif
 
 namespace {
 
@@ -112,7 +109,7 @@ void print_summary(const options& o, const setup& with, long events, const scifi
   // Standard output may be where the digits go.
   std::FILE* const out = o.output.starts_with("/dev/") ? stderr : stdout;
   const auto row = [out](const char* name, auto count, std::string_view remark = "") { fmt::print(out, "{:<18}{:>12}{}\n", name, count, remark); };
-  fmt::print(out, "scifi-digitise {}\n", SCIFI_VERSION);
+  fmt::print(out, "scifi-digitise {}\n", scifi::version);
   fmt::print(out, "{:<18}{}, {}\n", "read", o.raw, o.geometry.empty() ? "MICE trackers as surveyed" : o.stored.origin(o.geometry));
   row("cables", with.cables, fmt::format("   {}; channels of the geometry without one {}", o.stored.origin(o.cabling), with.without_cable));
   row("calibrated", with.calibrated, "   " + o.stored.origin(o.calibration));
@@ -170,6 +167,6 @@ int main(int argc, char** argv) {
   app.add_option("--geometry", o.geometry, "geometry in JSON that goes with the cabling; the MICE trackers unless given");
   app.add_option("--min-npe", o.min_npe, "least light of a digit, photo-electrons")->capture_default_str();
   app.add_option("-o,--output", o.output, "digits: MICE JSON, one event a spill, where the name ends in .json, else CSV")->capture_default_str();
-  app.set_version_flag("--version", SCIFI_VERSION);
+  app.set_version_flag("--version", std::string(scifi::version));
   return run_program("scifi-digitise", app, argc, argv, [&o] { run(o); });
 }

@@ -20,14 +20,11 @@
 #include <scifi/core/units.hpp>
 #include <scifi/geometry/mice.hpp>
 #include <scifi/io/any_geometry.hpp>
+#include <scifi/version.hpp>
 
 #include "conditions/stored_conditions.hpp"
 #include "reconstruct/event_pipeline.hpp"
 #include "run_program.hpp"
-
-#ifndef SCIFI_VERSION
-#define SCIFI_VERSION "of unknown version"
-#endif
 
 namespace {
 
@@ -73,7 +70,7 @@ void print_summary(const options& o, const totals& sum, const scifi::particle& h
   // Standard output may be where the tracks go.
   std::FILE* const out = o.output.starts_with("/dev/") || o.track_points.starts_with("/dev/") ? stderr : stdout;
   const auto row = [out](const char* name, long count, const std::string& remark = "") { fmt::print(out, "{:<16}{:>12}{}\n", name, count, remark); };
-  fmt::print(out, "scifi-reconstruct {}   units: mm, MeV/c, tesla\n", SCIFI_VERSION);
+  fmt::print(out, "scifi-reconstruct {}   units: mm, MeV/c, tesla\n", scifi::version);
   fmt::print(out, "{:<16}{}, {}, {}\n", "read", o.digits, o.geometry.empty() ? "MICE trackers as surveyed" : o.stored.origin(o.geometry),
              o.field != 0.0 ? fmt::format("{} T, helices, mass of {}", o.field, hypothesis.name)
                             : fmt::format("no field, straight lines at {} MeV/c, mass of {}", o.momentum, hypothesis.name));
@@ -162,6 +159,6 @@ int main(int argc, char** argv) {
   app.add_option("--output", o.output, "tracks, CSV")->capture_default_str();
   app.add_option("--track-points", o.track_points, "the tracks at every plane, CSV; not written unless given");
   app.add_option("--threads", o.threads, "number of threads; 0: all cores. The output does not depend on it")->capture_default_str();
-  app.set_version_flag("--version", SCIFI_VERSION);
+  app.set_version_flag("--version", std::string(scifi::version));
   return run_program("scifi-reconstruct", app, argc, argv, [&o] { run(o); });
 }
