@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MPL-2.0
 # Sourced by the other scripts: install_missing <Debian package>...
 
-build_packages=(g++ cmake ninja-build ccache python3
+build_packages=(g++ cmake ninja-build ccache python3 pkg-config
   libeigen3-dev catch2 libbenchmark-dev nlohmann-json3-dev zlib1g-dev libcli11-dev libtbb-dev libfmt-dev libboost1.81-dev libsqlite3-dev)
 
 install_missing() {
