@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MPL-2.0
 #pragma once
 
+#include <scifi/core/one_alignment.hpp>
+
 #include <Eigen/Core>
 
 namespace scifi {
