@@ -83,8 +83,8 @@ class arithmetic {
 
 }  // namespace detail
 
-/// The value of a number or of an expression in + - * / and parentheses as MiceModules have them, such as "-3300.0+@RepeatNumber*100".
-/// @RepeatNumber is 0: the first of the copies. Nothing when the text is not understood or the value is not finite. No blanks.
+/// The value of a number or of an expression in + - * / and parentheses as MiceModules have them, such as `-3300.0+@RepeatNumber*100`.
+/// `@RepeatNumber` is 0: the first of the copies. Nothing when the text is not understood or the value is not finite. No blanks.
 [[nodiscard]] inline std::optional<double> mice_expression(std::string_view text) { return detail::arithmetic(text).value(); }
 
 }  // namespace scifi

@@ -29,7 +29,7 @@ namespace scifi {
 }
 
 /// 1/lambda_1 (1/mm): the mean of 1 - cos(angle) per path of an electron or positron, from the single scattering of `screened_coulomb_of` carried on
-/// to all angles: chi_c^2/2 (ln(1 + 1/A) - 1/(1 + A)), A = chi_a^2/4. p in MeV/c. After a path s, <cos> = exp(-s/lambda_1) (Goudsmit, Saunderson).
+/// to all angles: chi_c^2/2 (ln(1 + 1/A) - 1/(1 + A)), A = chi_a^2/4. p in MeV/c. After a path s the mean of the cosine is exp(-s/lambda_1) (Goudsmit, Saunderson).
 [[nodiscard]] inline double electron_transport_rate(double p, const particle& hypothesis, const material& medium, double nuclear_charge = 6.0) {
   const auto [chi_c2, chi_a2] = screened_coulomb_of(p, hypothesis, 1.0 / medium.radiation_length, nuclear_charge, screening::moliere);
   const double a = 0.25 * chi_a2;

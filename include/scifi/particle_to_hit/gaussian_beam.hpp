@@ -20,7 +20,7 @@ struct gaussian_beam {
   double emittance = 6.0;   ///< normalised, transverse, root mean square, mm
   double beta = 400.0;      ///< mm
   double alpha = 0.0;       ///< positive where the beam converges along its flight
-  double canonical = 0.0;   ///< canonical angular momentum, <L> / (2 m emittance); 0 for a beam born outside the field
+  double canonical = 0.0;   ///< canonical angular momentum, mean of L / (2 m emittance); 0 for a beam born outside the field
   double pz = 200.0;        ///< mean of the magnitude, MeV/c
   double pz_spread = 10.0;  ///< standard deviation, MeV/c; draws below a tenth of the mean are repeated
 
