@@ -12,6 +12,7 @@
 #include <scifi/event/truth.hpp>
 #include <scifi/geometry/mice.hpp>
 #include <scifi/hit_to_digit/digitiser.hpp>
+#include <scifi/information/track_bound.hpp>
 #include <scifi/kalman.hpp>
 #include <scifi/material/concepts.hpp>
 #include <scifi/material/materials.hpp>

@@ -26,6 +26,7 @@ ALLOWED = {
     "event": CORE | {"geometry", "kalman"},
     **{arrow: NOUNS for arrow in ARROWS},
     "chain": NOUNS | set(ARROWS),
+    "information": NOUNS | {"candidate_to_track"},
     "io": NOUNS | set(ARROWS) | {"chain"},
     "conditions": NOUNS | {"io"},
 }
@@ -36,7 +37,7 @@ UMBRELLAS = {
     "geometry.hpp": CORE | {"material", "geometry"},
     "track_model.hpp": FIT | {"track_model"},
     "event.hpp": ALLOWED["event"] | {"event"},
-    "scifi.hpp": NOUNS | set(ARROWS) | {"chain"},
+    "scifi.hpp": NOUNS | set(ARROWS) | {"chain", "information"},
     "version.hpp": set(),
 }
 # third-party headers, by folder; everywhere else Eigen is the only one
