@@ -2,6 +2,7 @@
 #pragma once
 
 /// The generic Kalman filter: it knows no dimension and no physics. `kalman/automatic_jacobian.hpp` is separate, for its extra header.
+#include <scifi/kalman/bryson_frazier.hpp>
 #include <scifi/kalman/concepts.hpp>
 #include <scifi/kalman/estimate.hpp>
 #include <scifi/kalman/factored_estimate.hpp>
@@ -18,3 +19,4 @@
 #include <scifi/kalman/smoother.hpp>
 #include <scifi/kalman/square_root.hpp>
 #include <scifi/kalman/status.hpp>
+#include <scifi/kalman/symmetric_form.hpp>

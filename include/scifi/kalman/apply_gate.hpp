@@ -5,6 +5,7 @@
 #include <type_traits>
 #include <variant>
 
+#include <scifi/kalman/gate.hpp>
 #include <scifi/kalman/measurement.hpp>
 #include <scifi/kalman/updated.hpp>
 
@@ -23,6 +24,13 @@ template <class M, class F>
 template <class... Ms, class F>
 [[nodiscard]] auto visit_measurement(const std::variant<Ms...>& m, F&& f) {
   return std::visit(f, m);
+}
+
+/// Calls `f` with the measurement that is there in the end, however variants and optionals are nested; with `no_measurement` where there is none.
+template <class Measurement, class F>
+void each_alternative(const Measurement& m, const F& f) {
+  if constexpr (mixed_measurement<Measurement>) visit_measurement(m, [&f](const auto& one) { each_alternative(one, f); });
+  else f(m);
 }
 
 /// The result of an update as one of run-time dimension.
@@ -54,22 +62,21 @@ void keep_where(const Mask& accepted, estimate<Scalar, N>& a, const estimate<Sca
   keep_where(accepted, a.covariance, b.covariance);
 }
 
-/// Asks the gate and moves the update to `out`, whose posterior is the prior; a rejected measurement leaves it there.
+/// Asks the gate about an update that was made; where it rejects the measurement the prior is put back and the update marked.
 template <class Gate, class E, int M>
-void apply_gate(const Gate& gate, const basic_updated<E, M>& u, basic_updated<E, M>& out) {
-  const E before = out.posterior;
-  out = u;
-  if (!u.status.ok()) return;
-  const auto accepted = gate(u.chi2, M);
-  if constexpr (std::is_same_v<std::remove_cvref_t<decltype(accepted)>, bool>) {
-    if (!accepted) {
-      out.posterior = before;
-      const typename E::scalar zero(0.0);
-      out.outlier = zero <= zero;  // in every lane
+void apply_gate(const Gate& gate, const E& prior, basic_updated<E, M>& u) {
+  if constexpr (!std::is_same_v<Gate, no_gate>) {
+    if (!u.status.ok()) return;
+    const auto accepted = gate(u.chi2, M);
+    if constexpr (std::is_same_v<std::remove_cvref_t<decltype(accepted)>, bool>) {
+      if (!accepted) {
+        u.posterior = prior;
+        u.outlier = mask<typename E::scalar>(true);
+      }
+    } else {
+      keep_where(accepted, u.posterior, prior);
+      u.outlier = !accepted;
     }
-  } else {
-    keep_where(accepted, out.posterior, before);
-    out.outlier = !accepted;
   }
 }
 

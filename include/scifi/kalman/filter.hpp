@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 #pragma once
 
+#include <new>
 #include <optional>
 #include <utility>
 
@@ -41,6 +42,12 @@ class filter {
     return predict_about(prior, step, &about);
   }
 
+  /// The same, with the state in which `about` ends left in `arrived`; that may be `about` itself.
+  template <class Prior, class Step, class Scalar, int N>
+  [[nodiscard]] auto predict(const Prior& prior, const Step& step, const vector<Scalar, N>& about, vector<Scalar, N>& arrived) const {
+    return predict_about(prior, step, &about, &arrived);
+  }
+
   /// The estimate with a measurement taken in. A variant or optional of measurements gives a result of run-time dimension.
   template <class Prior, class Measurement>
   [[nodiscard]] auto update(const Prior& prior, const Measurement& m) const {
@@ -67,20 +74,21 @@ class filter {
   }
 
  private:
-  template <class Prior, class Step, class About>
-  [[nodiscard]] auto predict_about(const Prior& prior, const Step& step, const About& about) const {
+  template <class Prior, class Step, class About, class Arrived = std::nullptr_t>
+  [[nodiscard]] auto predict_about(const Prior& prior, const Step& step, const About& about, const Arrived& arrived = nullptr) const {
     if constexpr (detail::prior_fits<Prior>::value) {
       using estimate_type = detail::estimate_type<Prior>;
       using Scalar = typename estimate_type::scalar;
       constexpr int N = estimate_type::dimension;
       if constexpr (detail::is_optional<Step>) {
         using result = basic_predicted<estimate_type>;
-        if (step) return result(predict_about(prior, *step, about));
+        if (step) return result(predict_about(prior, *step, about, arrived));
+        if constexpr (!std::is_same_v<Arrived, std::nullptr_t>) *arrived = *about;
         return unmoved(detail::estimate_in(prior), detail::status_in(prior));
       } else if constexpr (detail::model_spaces_agree<Propagator, Noise>::value && detail::propagator_fits<Propagator, Scalar, N, Step>::value &&
                            detail::noise_fits<Noise, Scalar, N, Step>::value) {
         if (!detail::status_in(prior).ok()) return unmoved(detail::estimate_in(prior), detail::status_in(prior));
-        return advanced(detail::estimate_in(prior), step, about);
+        return advanced(detail::estimate_in(prior), step, about, arrived);
       } else {
         return unmoved(detail::estimate_in(prior), status{});
       }
@@ -93,8 +101,8 @@ class filter {
     return {e, square::Identity(), square::Zero(), s};
   }
 
-  template <class Estimate, class Step, class About>
-  [[nodiscard]] basic_predicted<Estimate> advanced(const Estimate& prior, const Step& step, const About& about) const {
+  template <class Estimate, class Step, class About, class Arrived>
+  [[nodiscard]] basic_predicted<Estimate> advanced(const Estimate& prior, const Step& step, const About& about, const Arrived& arrived) const {
     using Scalar = typename Estimate::scalar;
     constexpr int N = Estimate::dimension;
     constexpr bool relinearised = !std::is_same_v<About, std::nullptr_t>;
@@ -103,10 +111,13 @@ class filter {
       else return prior.mean;
     }();
     const propagated<Scalar, N> moved = propagate(propagator_, from, step);
-    basic_predicted<Estimate> out{{moved.state, {}}, moved.jacobian, detail::noise_covariance<Scalar, N>(noise_, from, step, moved), {}};
-    if constexpr (relinearised) out.estimate.mean.noalias() += moved.jacobian.lazyProduct(prior.mean - from);
+    basic_predicted<Estimate> out;
+    out.estimate.mean = moved.state;
+    detail::copy_columns<Scalar, N, N>(out.jacobian, moved.jacobian);
+    ::new (static_cast<void*>(&out.noise)) matrix<Scalar, N, N>(detail::noise_covariance<Scalar, N>(noise_, from, step, moved));  // made in its place
+    if constexpr (relinearised) out.estimate.mean += detail::times_vector<Scalar, N, N>(moved.jacobian, prior.mean - from);
     if constexpr (std::is_same_v<Estimate, kalman::estimate<Scalar, N>>) {
-      out.estimate.covariance = detail::similarity<Scalar, N, N>(moved.jacobian, prior.covariance, out.noise);
+      detail::set_similarity<Scalar, N, N>(out.estimate.covariance, moved.jacobian, prior.covariance, out.noise);
       out.status.why = fault_of(out.estimate.mean, out.estimate.covariance);
     } else {
       matrix<Scalar, N, 2 * N> array;
@@ -116,6 +127,7 @@ class filter {
       out.status.why = fault_of(out.estimate.mean, out.estimate.factor);
     }
     if (!out.status.ok()) out.estimate = prior;
+    if constexpr (!std::is_same_v<Arrived, std::nullptr_t>) *arrived = moved.state;
     return out;
   }
 
@@ -128,32 +140,40 @@ class filter {
         using result = basic_updated<estimate_type, Eigen::Dynamic, M>;
         return detail::visit_measurement(m, [&](const auto& one) -> result { return detail::mixed<result>(update_about(prior, one, about)); });
       } else {
-        basic_updated<estimate_type, M> out{detail::estimate_in(prior), {}, {}, {}, {}};
-        out.status = detail::status_in(prior);
+        using result = basic_updated<estimate_type, M>;
         if constexpr (!std::is_same_v<Measurement, no_measurement>) {
-          if (out.status.ok()) take_in(out, m, about);
-          else detail::clear(out);
-        } else if (out.status.ok()) {
-          out.status.step = step_kind::update;
+          if (detail::status_in(prior).ok()) return taken_in(detail::estimate_in(prior), m, about);
         }
+        result out{detail::estimate_in(prior), {}, {}, {}, {}};
+        detail::clear(out);
+        out.status = detail::status_in(prior);
+        if (out.status.ok()) out.status.step = step_kind::update;
         return out;
       }
     }
   }
 
-  template <class Estimate, int M, class Measurement, class About>
-  void take_in(basic_updated<Estimate, M>& out, const Measurement& m, const About& about) const {
+  template <class Estimate, class Measurement, class About>
+  [[nodiscard]] auto taken_in(const Estimate& prior, const Measurement& m, const About& about) const -> basic_updated<Estimate, max_measurement_dimension<Measurement>> {
     using Scalar = typename Estimate::scalar;
     constexpr int N = Estimate::dimension;
+    constexpr int M = max_measurement_dimension<Measurement>;
     if constexpr (detail::measurement_space_agrees<Propagator, Measurement>::value && detail::measurement_fits<Measurement, Scalar, N>::value &&
                   detail::gate_fits<Gate, Scalar>::value) {
-      if constexpr (std::is_same_v<About, std::nullptr_t>) {
-        if constexpr (detail::update_fits<Update, Estimate, Measurement>::value) detail::apply_gate(gate_, update_(out.posterior, m), out);
+      if constexpr (std::is_same_v<About, std::nullptr_t> || detail::is_own_tangent<Measurement, Scalar, N>) {
+        if constexpr (detail::update_fits<Update, Estimate, Measurement>::value) return gated(prior, m);
       } else {
-        if constexpr (detail::update_fits<Update, Estimate, linear_measurement<Scalar, N, M>>::value)
-          detail::apply_gate(gate_, update_(out.posterior, linearise(m, *about)), out);
+        if constexpr (detail::update_fits<Update, Estimate, linear_measurement<Scalar, N, M>>::value) return gated(prior, linearise(m, *about));
       }
     }
+    return {prior, {}, {}, {}, {}};  // behind an error
+  }
+
+  template <class Estimate, class Measurement>
+  [[nodiscard]] auto gated(const Estimate& prior, const Measurement& m) const -> basic_updated<Estimate, max_measurement_dimension<Measurement>> {
+    basic_updated<Estimate, max_measurement_dimension<Measurement>> out = update_(prior, m);
+    detail::apply_gate(gate_, prior, out);
+    return out;
   }
 
   [[no_unique_address]] Propagator propagator_;

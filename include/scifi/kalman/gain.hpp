@@ -5,7 +5,7 @@
 
 #include <scifi/core/linalg.hpp>
 #include <scifi/core/scalar.hpp>
-#include <scifi/kalman/cholesky.hpp>
+#include <scifi/kalman/ldl.hpp>
 #include <scifi/kalman/measurement.hpp>
 #include <scifi/kalman/symmetric.hpp>
 #include <scifi/kalman/updated.hpp>
@@ -19,6 +19,9 @@ struct gain {
   matrix<Scalar, N, M> cross;
   /// S = H P H' + R, M x M.
   matrix<Scalar, M, M> residual_covariance;
+  /// P H' L'^-1 (N x M) and 1 / D (M) of S = L D L': the columns z_k give P H' S^-1 H P as the sum of z_k z_k' / D_k.
+  matrix<Scalar, N, M> decorrelated;
+  vector<Scalar, M> inverse_diagonal;
   /// K = P H' S^-1, N x M.
   matrix<Scalar, N, M> weight;
   /// r' S^-1 r; NaN where S cannot be inverted.
@@ -27,37 +30,26 @@ struct gain {
   reason why = reason::none;
 };
 
-/// Gain of a measurement for an estimate of covariance P: by division where M = 1, by Cholesky decomposition of S otherwise.
+/// Gain of a measurement for an estimate of covariance P, through S = L D L'.
 template <class Scalar, int N, int M>
-[[nodiscard]] gain<Scalar, N, M> optimal_gain(const matrix<Scalar, N, N>& p, const innovation<Scalar, N, M>& seen) {
-  const Scalar nan = Scalar(std::numeric_limits<double>::quiet_NaN());
+[[nodiscard, gnu::always_inline]] inline gain<Scalar, N, M> optimal_gain(const matrix<Scalar, N, N>& p, const innovation<Scalar, N, M>& seen) {
   gain<Scalar, N, M> out;
-  out.cross.noalias() = p.lazyProduct(seen.jacobian.transpose());
-  if constexpr (M == 1) {
-    Scalar s(seen.covariance(0, 0));
-    for (int i = 0; i < N; ++i) s += seen.jacobian(0, i) * out.cross(i, 0);
-    const auto positive = s > Scalar(0.0);
-    const Scalar inverse = Scalar(1.0) / select(positive, s, Scalar(1.0));
-    const Scalar r(seen.residual(0));
-    const Scalar chi2 = r * r * inverse;
-    out.residual_covariance(0, 0) = s;
-    out.weight = out.cross * inverse;
-    out.chi2 = select(positive, chi2, nan);
-    if (!any_of(positive)) out.why = any_of(is_finite<Scalar>(s)) ? reason::singular_innovation : reason::not_finite;
-  } else {
-    const matrix<Scalar, M, N> cross_transposed = detail::transposed<Scalar, N, M>(out.cross);
-    out.residual_covariance = detail::symmetric_sum<Scalar, M, N>(seen.covariance, seen.jacobian, cross_transposed);
-    const cholesky<Scalar, M> factor(out.residual_covariance);
-    out.weight = detail::transposed<Scalar, M, N>(factor.template solve<N>(cross_transposed));
-    const vector<Scalar, M> white = factor.template half_solve<1>(seen.residual);
-    Scalar chi2(0.0);
-    for (int i = 0; i < M; ++i) chi2 += white(i) * white(i);
-    out.chi2 = select(factor.ok(), chi2, nan);
-    if (!any_of(factor.ok())) {
-      Scalar trace(0.0);
-      for (int i = 0; i < M; ++i) trace += out.residual_covariance(i, i);
-      out.why = any_of(is_finite<Scalar>(trace)) ? reason::singular_innovation : reason::not_finite;
-    }
+  detail::multiply(out.cross, p, detail::transpose_of<Scalar, M, N>(seen.jacobian));
+  detail::multiply(out.residual_covariance, seen.jacobian, [&out](int k, int j) -> const Scalar& { return out.cross(k, j); });
+  out.residual_covariance += seen.covariance;
+  detail::mirror<Scalar, M>(out.residual_covariance);
+  const ldl<Scalar, M> factor(out.residual_covariance);
+  const auto regular = factor.ok();
+  detail::copy_columns<Scalar, N, M>(out.decorrelated, out.cross);
+  factor.template decorrelate<N>(out.decorrelated);
+  factor.template recombine<N>(out.weight, out.decorrelated);
+  out.inverse_diagonal = factor.inverse_diagonal();
+  const Scalar chi2 = factor.inverse_form(seen.residual);
+  out.chi2 = select(regular, chi2, Scalar(std::numeric_limits<double>::quiet_NaN()));
+  if (!any_of(regular)) {
+    Scalar trace(0.0);
+    for (int i = 0; i < M; ++i) trace += out.residual_covariance(i, i);
+    out.why = any_of(is_finite<Scalar>(trace)) ? reason::singular_innovation : reason::not_finite;
   }
   return out;
 }
@@ -70,5 +62,22 @@ template <class Estimate, class Scalar, int N, int M>
   if (why == reason::none && !any_of(is_finite<Scalar>(chi2))) out.status.why = reason::not_finite;
   return out;
 }
+
+namespace detail {
+
+/// Fills in all but the posterior, which stands there already, judges it, and puts the prior back where the update failed.
+template <class Scalar, int N, int M>
+[[gnu::always_inline]] inline void complete(updated<Scalar, N, M>& out, const estimate<Scalar, N>& prior, const innovation<Scalar, N, M>& seen, const gain<Scalar, N, M>& k) {
+  out.residual = seen.residual;
+  out.residual_covariance = k.residual_covariance;
+  out.jacobian = seen.jacobian;
+  out.measurement_covariance = seen.covariance;
+  out.chi2 = k.chi2;
+  out.status = {step_kind::update, k.why};
+  if (k.why == reason::none) out.status.why = any_of(is_finite<Scalar>(k.chi2)) ? fault_of(out.posterior.mean, out.posterior.covariance) : reason::not_finite;
+  if (!out.status.ok()) out.posterior = prior;
+}
+
+}  // namespace detail
 
 }  // namespace scifi::kalman

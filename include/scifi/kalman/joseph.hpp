@@ -13,19 +13,16 @@ struct joseph {
   template <class Scalar, int N, class Measurement>
   [[nodiscard]] auto operator()(const estimate<Scalar, N>& prior, const Measurement& m) const -> updated<Scalar, N, max_measurement_dimension<Measurement>> {
     constexpr int M = max_measurement_dimension<Measurement>;
-    const innovation<Scalar, N, M> seen = compare(m, prior.mean);
+    innovation<Scalar, N, M> seen;
+    detail::set_innovation(seen, m, prior.mean);
     const gain<Scalar, N, M> k = optimal_gain(prior.covariance, seen);
-    updated<Scalar, N, M> out = not_yet_updated(prior, seen, k.residual_covariance, k.chi2, k.why);
-    if (!out.status.ok()) return out;
-
-    matrix<Scalar, N, N> t = prior.covariance;
-    t.noalias() -= k.weight.lazyProduct(k.cross.transpose());
-    matrix<Scalar, N, M> correction = k.weight.lazyProduct(seen.covariance);
-    correction.noalias() -= t.lazyProduct(seen.jacobian.transpose());
-    const estimate<Scalar, N> after{prior.mean + k.weight.lazyProduct(seen.residual), detail::symmetric_sum<Scalar, N, M>(t, correction, k.weight)};
-
-    out.status.why = fault_of(after.mean, after.covariance);
-    if (out.status.ok()) out.posterior = after;
+    updated<Scalar, N, M> out;
+    matrix<Scalar, N, N> t;
+    detail::set_difference(t, prior.covariance, k.weight, detail::transpose_of<Scalar, N, M>(k.cross));
+    const matrix<Scalar, N, M> correction = detail::times<Scalar, N, M, M>(k.weight, seen.covariance) - detail::times_transposed<Scalar, N, N, M>(t, seen.jacobian);
+    detail::set_symmetric_sum(out.posterior.covariance, t, correction, detail::transpose_of<Scalar, N, M>(k.weight));
+    out.posterior.mean = prior.mean + detail::times_vector<Scalar, N, M>(k.weight, seen.residual);
+    detail::complete(out, prior, seen, k);
     return out;
   }
 };

@@ -10,6 +10,7 @@
 
 #include <scifi/core/linalg.hpp>
 #include <scifi/kalman/estimate.hpp>
+#include <scifi/kalman/product.hpp>
 #include <scifi/kalman/shape.hpp>
 
 namespace scifi::kalman {
@@ -73,25 +74,38 @@ struct innovation {
   matrix<Scalar, M, M> covariance;
 };
 
+namespace detail {
+
+/// `compare` into an innovation that is there: the compiler keeps it in registers, which it does not with one returned from a function.
+template <class Scalar, int N, int M, class Measurement>
+[[gnu::always_inline]] inline void set_innovation(innovation<Scalar, N, M>& out, const Measurement& m, const vector<Scalar, N>& x) {
+  const vector<Scalar, M> value = as_matrix<Scalar, M, 1>(m.value());
+  const auto against = [&](const vector<Scalar, M>& expected) -> vector<Scalar, M> {
+    if constexpr (requires { m.residual(value, expected); }) return as_matrix<Scalar, M, 1>(m.residual(value, expected));
+    else if constexpr (M == 1 && requires { m.residual(value(0), expected(0)); }) return as_matrix<Scalar, M, 1>(m.residual(value(0), expected(0)));
+    else return value - expected;
+  };
+  out.covariance = as_matrix<Scalar, M, M>(m.covariance());
+  if constexpr (has_projection<Measurement>) {
+    const matrix<Scalar, M, N> h = converted<Scalar, M, N>([&m]() -> decltype(auto) { return m.projection(); });
+    for (int j = 0; j < N; ++j)
+      for (int i = 0; i < M; ++i) out.jacobian(i, j) = h(i, j);
+    out.residual = against(times_vector<Scalar, M, N>(out.jacobian, x));
+  } else {
+    const auto expected = m.project(x);
+    out.jacobian = as_matrix<Scalar, M, N>(expected.jacobian);
+    out.residual = against(as_matrix<Scalar, M, 1>(expected.value));
+  }
+}
+
+}  // namespace detail
+
 /// Compares a measurement with the state x: residual value - h(x), or m.residual(value, h(x)) where the measurement defines it.
 template <class Measurement, class Scalar, int N>
 [[nodiscard]] auto compare(const Measurement& m, const vector<Scalar, N>& x) -> innovation<Scalar, N, max_measurement_dimension<Measurement>> {
-  constexpr int M = max_measurement_dimension<Measurement>;
-  const vector<Scalar, M> value = detail::as_matrix<Scalar, M, 1>(m.value());
-  const matrix<Scalar, M, M> covariance = detail::as_matrix<Scalar, M, M>(m.covariance());
-  const auto against = [&](const vector<Scalar, M>& expected) -> vector<Scalar, M> {
-    if constexpr (requires { m.residual(value, expected); }) return detail::as_matrix<Scalar, M, 1>(m.residual(value, expected));
-    else if constexpr (M == 1 && requires { m.residual(value(0), expected(0)); }) return detail::as_matrix<Scalar, M, 1>(m.residual(value(0), expected(0)));
-    else return value - expected;
-  };
-  if constexpr (detail::has_projection<Measurement>) {
-    const matrix<Scalar, M, N> h = detail::as_matrix<Scalar, M, N>(m.projection());
-    const vector<Scalar, M> expected = h.lazyProduct(x);
-    return {against(expected), h, covariance};
-  } else {
-    const auto expected = m.project(x);
-    return {against(detail::as_matrix<Scalar, M, 1>(expected.value)), detail::as_matrix<Scalar, M, N>(expected.jacobian), covariance};
-  }
+  innovation<Scalar, N, max_measurement_dimension<Measurement>> out;
+  detail::set_innovation(out, m, x);
+  return out;
 }
 
 /// A measurement replaced by its tangent at a state: itself a linear measurement, so that every update policy takes it.
@@ -105,6 +119,16 @@ struct linear_measurement {
   [[nodiscard]] const matrix<Scalar, M, N>& projection() const { return h; }
   [[nodiscard]] const matrix<Scalar, M, M>& covariance() const { return r; }
 };
+
+namespace detail {
+
+/// True where a measurement is linear and its residual a plain difference, so that its tangent is itself wherever it is taken.
+template <class Measurement, class Scalar, int N>
+inline constexpr bool is_own_tangent = has_projection<Measurement> && !requires(const Measurement& m, const vector<Scalar, max_measurement_dimension<Measurement>>& v) {
+  m.residual(v, v);
+} && !requires(const Measurement& m, const Scalar& v) { m.residual(v, v); };
+
+}  // namespace detail
 
 /// Tangent of a measurement at `about`: its residual at x is the residual at `about` minus H (x - about).
 template <class Measurement, class Scalar, int N>

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <scifi/kalman/node.hpp>
+#include <scifi/kalman/node_view.hpp>
+#include <scifi/kalman/product.hpp>
 #include <scifi/kalman/residual.hpp>
 
 namespace scifi::kalman {
@@ -13,13 +15,22 @@ using node_residual = residual<Scalar, Eigen::Dynamic, MaxM>;
 namespace detail {
 
 /// Residual at the estimate e, from the predicted one through the node's H; covariance R + sign H P H'.
-template <class Scalar, int N, int MaxM>
-[[nodiscard]] node_residual<Scalar, MaxM> residual_at(const node<Scalar, N, MaxM>& n, const estimate<Scalar, N>& e, double sign) {
-  const vector<Scalar, N> moved = e.mean - n.predicted.mean;
-  const bounded_matrix<Scalar, Eigen::Dynamic, N, MaxM, N> hp = n.projection.lazyProduct(e.covariance);
-  node_residual<Scalar, MaxM> out{n.residual, n.measurement_covariance};
-  out.value.noalias() -= n.projection.lazyProduct(moved);
-  out.covariance.noalias() += Scalar(sign) * hp.lazyProduct(n.projection.transpose());
+template <class Scalar, int N, int M>
+[[nodiscard]] residual<Scalar, M> residual_at(const measured_view<Scalar, N, M>& seen, const vector<Scalar, N>& predicted, const estimate<Scalar, N>& e, double sign) {
+  const vector<Scalar, N> moved = e.mean - predicted;
+  const matrix<Scalar, N, M> cross = times_transposed<Scalar, N, N, M>(e.covariance, seen.jacobian);
+  return {seen.residual - times_vector<Scalar, M, N>(seen.jacobian, moved), seen.measurement_covariance + Scalar(sign) * times<Scalar, M, N, M>(seen.jacobian, cross)};
+}
+
+/// Calls f with the node's measurement, if there is one, for a residual of its dimension, and returns that as one of any dimension.
+template <class Scalar, int N, int MaxM, class F>
+[[nodiscard]] node_residual<Scalar, MaxM> residual_of(const node<Scalar, N, MaxM>& n, const F& f) {
+  node_residual<Scalar, MaxM> out;
+  with_measurement(n, [&](const auto& seen) {
+    const auto r = f(seen);
+    assign_bounded(out.value, r.value);
+    assign_bounded(out.covariance, r.covariance);
+  });
   return out;
 }
 
@@ -34,21 +45,22 @@ template <class Scalar, int N, int MaxM>
 /// Seen from the estimate after this site's measurement: covariance R - H P H', or S for an outlier, which was not used.
 template <class Scalar, int N, int MaxM>
 [[nodiscard]] node_residual<Scalar, MaxM> filtered_residual(const node<Scalar, N, MaxM>& n) {
-  return detail::residual_at(n, n.filtered, n.outlier ? 1.0 : -1.0);
+  return detail::residual_of(n, [&n](const auto& seen) { return detail::residual_at(seen, n.predicted.mean, n.filtered, n.outlier ? 1.0 : -1.0); });
 }
 
 /// Seen from the smoothed estimate: covariance R - H P H', or R + H P H' for an outlier, which was not used.
 template <class Scalar, int N, int MaxM>
 [[nodiscard]] node_residual<Scalar, MaxM> smoothed_residual(const node<Scalar, N, MaxM>& n) {
-  return detail::residual_at(n, n.smoothed, n.outlier ? 1.0 : -1.0);
+  return detail::residual_of(n, [&n](const auto& seen) { return detail::residual_at(seen, n.predicted.mean, n.smoothed, n.outlier ? 1.0 : -1.0); });
 }
 
 /// Seen from the smoothed estimate with this measurement removed: not biased towards it. NaN where the others do not fix the state.
 template <class Scalar, int N, int MaxM>
 [[nodiscard]] node_residual<Scalar, MaxM> unbiased_residual(const node<Scalar, N, MaxM>& n) {
-  const node_residual<Scalar, MaxM> seen = smoothed_residual(n);
-  if (n.outlier) return seen;
-  return without_own_measurement(seen, n.measurement_covariance);
+  return detail::residual_of(n, [&n](const auto& seen) {
+    const auto r = detail::residual_at(seen, n.predicted.mean, n.smoothed, n.outlier ? 1.0 : -1.0);
+    return n.outlier ? r : without_own_measurement(r, seen.measurement_covariance);
+  });
 }
 
 }  // namespace scifi::kalman

@@ -12,17 +12,15 @@ struct plain {
   template <class Scalar, int N, class Measurement>
   [[nodiscard]] auto operator()(const estimate<Scalar, N>& prior, const Measurement& m) const -> updated<Scalar, N, max_measurement_dimension<Measurement>> {
     constexpr int M = max_measurement_dimension<Measurement>;
-    const innovation<Scalar, N, M> seen = compare(m, prior.mean);
+    innovation<Scalar, N, M> seen;
+    detail::set_innovation(seen, m, prior.mean);
     const gain<Scalar, N, M> k = optimal_gain(prior.covariance, seen);
-    updated<Scalar, N, M> out = not_yet_updated(prior, seen, k.residual_covariance, k.chi2, k.why);
-    if (!out.status.ok()) return out;
-
+    updated<Scalar, N, M> out;
     matrix<Scalar, N, N> a = matrix<Scalar, N, N>::Identity();
-    a.noalias() -= k.weight.lazyProduct(seen.jacobian);
-    const estimate<Scalar, N> after{prior.mean + k.weight.lazyProduct(seen.residual), a.lazyProduct(prior.covariance)};
-
-    out.status.why = fault_of(after.mean, after.covariance);
-    if (out.status.ok()) out.posterior = after;
+    a -= detail::times<Scalar, N, M, N>(k.weight, seen.jacobian);
+    detail::multiply(out.posterior.covariance, a, [&prior](int row, int col) -> const Scalar& { return prior.covariance(row, col); });
+    out.posterior.mean = prior.mean + detail::times_vector<Scalar, N, M>(k.weight, seen.residual);
+    detail::complete(out, prior, seen, k);
     return out;
   }
 };

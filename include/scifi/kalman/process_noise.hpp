@@ -39,7 +39,7 @@ template <class Scalar, int N, class Q, class Step>
 template <class Scalar, int N, class Q, class Step>
 [[nodiscard]] matrix<Scalar, N, N> noise_covariance(const Q& q, const vector<Scalar, N>& start, const Step& step, const propagated<Scalar, N>& moved) {
   if constexpr (std::is_same_v<Q, no_noise>) return matrix<Scalar, N, N>::Zero();
-  else return as_matrix<Scalar, N, N>(noise_value<Scalar, N>(q, start, step, moved));
+  else return converted<Scalar, N, N>([&]() -> decltype(auto) { return noise_value<Scalar, N>(q, start, step, moved); });
 }
 
 }  // namespace detail

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <iterator>
+#include <span>
 
 #include <scifi/kalman/filter.hpp>
 #include <scifi/kalman/smoother.hpp>
@@ -11,20 +12,17 @@ namespace scifi::kalman {
 
 namespace detail {
 
-/// The state at the start of the first step, smoothed: that of the first site where there is no step to take.
-template <class Scalar, int N, int MaxM, class Step>
-[[nodiscard]] status smooth_start(const estimate<Scalar, N>& start, const node<Scalar, N, MaxM>& first, const Step& step, vector<Scalar, N>& smoothed) {
+/// Smooths the nodes and the start of the first step, which is the first site where there is no step to take.
+template <class Smoother, class Scalar, int N, int MaxM, class Step>
+[[nodiscard]] status smooth_all(const Smoother& smoother, std::span<node<Scalar, N, MaxM>> nodes, const Step& first, estimate<Scalar, N>& start) {
   if constexpr (is_optional<Step>) {
-    if (!step) {
-      smoothed = first.smoothed.mean;
-      return {step_kind::smooth, reason::none};
+    if (!first) {
+      const status s = smoother(nodes);
+      start = nodes[0].smoothed;
+      return s;
     }
   }
-  node<Scalar, N, MaxM> begin;
-  begin.filtered = start;
-  const status s = smooth_one(begin, first);
-  if (s.ok()) smoothed = begin.smoothed.mean;
-  return s;
+  return smoother(nodes, &start);
 }
 
 /// No pass is left out.
@@ -43,26 +41,26 @@ struct never_settled {
 /// `sites`, `nodes` and `references` are contiguous; nodes has as many elements as sites, references one more. Does not allocate. With one pass and a
 /// good seed this is the filter linearised about a reference track. On failure the nodes reached are kept as `run` leaves them.
 /// `settled(reference state, smoothed estimate)`, asked at the last site, may end it before all passes are made.
-template <class Filter, class Scalar, int N, class Sites, class Nodes, class References, class Settled = detail::never_settled>
+template <class Filter, class Scalar, int N, class Sites, class Nodes, class References, class Settled = detail::never_settled, class Smoother = rauch_tung_striebel>
 [[nodiscard]] run_result<Scalar> run_relinearised(const Filter& filter, const estimate<Scalar, N>& start, const vector<Scalar, N>& seed, const Sites& sites, Nodes& nodes,
-                                                  References& references, int passes, const Settled& settled = {}) {
+                                                  References& references, int passes, const Settled& settled = {}, const Smoother& smoother = {}) {
   references[0] = seed;
-  std::size_t k = 0;
-  for (const auto& site : sites) {
-    references[k + 1] = detail::arrival(filter.propagator(), references[k], site.step);
-    ++k;
-  }
+  const std::size_t k = std::size(sites);
   run_result<Scalar> result;
   for (int pass = 0; pass < passes; ++pass) {
-    if (pass > 0 && k > 0) {
-      result.status = detail::smooth_start(start, nodes[0], std::begin(sites)->step, references[0]);
-      if (!result.status.ok()) return result;
-      for (std::size_t i = 0; i < k; ++i) references[i + 1] = nodes[i].smoothed.mean;
+    if (pass == 0) result = filter.run(start, sites, nodes, detail::flown_references<References>{references});
+    else result = filter.run(start, sites, nodes, references);
+    if (!result.status.ok() || k == 0) return result;
+    const std::span reached(std::data(nodes), k);
+    if (pass + 1 == passes) {
+      result.status = smooth(reached, smoother);
+      return result;
     }
-    result = filter.run(start, sites, nodes, references);
-    if (!result.status.ok()) return result;
-    result.status = smooth(nodes);
-    if (!result.status.ok() || (k > 0 && settled(references[k], nodes[k - 1].smoothed))) return result;
+    estimate<Scalar, N> begin = start;
+    result.status = detail::smooth_all(smoother, reached, std::begin(sites)->step, begin);
+    if (!result.status.ok() || settled(references[k], nodes[k - 1].smoothed)) return result;
+    references[0] = begin.mean;
+    for (std::size_t i = 0; i < k; ++i) references[i + 1] = nodes[i].smoothed.mean;
   }
   return result;
 }

@@ -3,19 +3,31 @@
 
 #include <cstddef>
 #include <iterator>
-#include <optional>
 #include <span>
 #include <type_traits>
 
+#include <scifi/kalman/apply_gate.hpp>
 #include <scifi/kalman/factored_estimate.hpp>
 #include <scifi/kalman/measurement.hpp>
 #include <scifi/kalman/node.hpp>
-#include <scifi/kalman/propagation.hpp>
+#include <scifi/kalman/node_view.hpp>
+#include <scifi/kalman/product.hpp>
 
 namespace scifi::kalman::detail {
 
 /// Stands where a run has no reference states.
 struct no_references {};
+
+/// Reference states of which the first is given and each further one is set to where the one before it arrives.
+template <class States>
+struct flown_references {
+  States& states;
+};
+
+template <class References>
+inline constexpr bool is_flown = false;
+template <class States>
+inline constexpr bool is_flown<flown_references<States>> = true;
 
 template <class Sites>
 using site_type = std::remove_cvref_t<decltype(*std::begin(std::declval<const Sites&>()))>;
@@ -39,30 +51,32 @@ struct run_fits {
   static constexpr bool value = complete && same_state && room;
 };
 
-template <class Node, class Predicted, class Updated>
-void record(Node& n, const Predicted& p, const Updated& u) {
-  n.predicted = unfactored(p.estimate);
-  n.jacobian = p.jacobian;
-  n.noise = p.noise;
-  n.filtered = unfactored(u.posterior);
-  n.residual = u.residual;
-  n.residual_covariance = u.residual_covariance;
-  n.projection = u.jacobian;
-  n.measurement_covariance = u.measurement_covariance;
+template <class Scalar, int N>
+void set_estimate(estimate<Scalar, N>& out, const estimate<Scalar, N>& e) {
+  out.mean = e.mean;
+  copy_columns<Scalar, N, N>(out.covariance, e.covariance);
+}
+
+template <class Node, class Predicted>
+void record_prediction(Node& n, const Predicted& p) {
+  constexpr int N = Node::dimension;
+  using Scalar = typename Node::scalar;
+  set_estimate<Scalar, N>(n.predicted, unfactored(p.estimate));
+  copy_columns<Scalar, N, N>(n.jacobian, p.jacobian);
+  copy_columns<Scalar, N, N>(n.noise, p.noise);
+}
+
+template <class Node, class Updated>
+void record_update(Node& n, const Updated& u) {
+  set_estimate<typename Node::scalar, Node::dimension>(n.filtered, unfactored(u.posterior));
+  assign_bounded(n.residual, u.residual);
+  assign_bounded(n.residual_covariance, u.residual_covariance);
+  assign_bounded(n.projection, u.jacobian);
+  assign_bounded(n.measurement_covariance, u.measurement_covariance);
   n.chi2 = u.chi2;
   n.measurement_dimension = u.measurement_dimension();
   n.outlier = u.outlier;
   n.status = u.status;
-}
-
-/// Where a reference state arrives after a step, which may be an empty optional.
-template <class Propagator, class Scalar, int N, class Step>
-[[nodiscard]] vector<Scalar, N> arrival(const Propagator& p, const vector<Scalar, N>& from, const Step& step) {
-  return propagate(p, from, step).state;
-}
-template <class Propagator, class Scalar, int N, class Step>
-[[nodiscard]] vector<Scalar, N> arrival(const Propagator& p, const vector<Scalar, N>& from, const std::optional<Step>& step) {
-  return step ? arrival(p, from, *step) : from;
 }
 
 /// Predicts and updates over the sites; see filter::run.
@@ -83,31 +97,40 @@ template <class Filter, class Prior, class Sites, class Nodes, class References>
       result.failed_at = result.reached;
       return result;
     };
-    estimate_type current = estimate_in(start);
+    estimate_type after_update = estimate_in(start);
+    const estimate_type* current = &after_update;
     for (const auto& here : sites) {
       const std::size_t k = result.reached;
       if (k >= nodes.size()) return fail({step_kind::predict, reason::out_of_space});
+      auto& n = nodes[k];
+      // Each alternative of a mixed measurement is taken in by matrices of its own size.
+      const auto take = [&](const auto& p, const auto&... about) {
+        record_prediction(n, p);
+        each_alternative(here.measurement, [&](const auto& m) {
+          const auto u = f.update(p, m, about...);
+          record_update(n, u);
+          if constexpr (std::is_same_v<estimate_type, std::remove_cvref_t<decltype(n.filtered)>>) current = &n.filtered;
+          else after_update = u.posterior;
+        });
+        return n.status;
+      };
       const auto one = [&] {
         if constexpr (std::is_same_v<References, no_references>) {
-          const auto p = f.predict(current, here.step);
-          const auto u = f.update(p, here.measurement);
-          record(nodes[k], p, u);
-          current = u.posterior;
-          return u.status;
+          return take(f.predict(*current, here.step));
+        } else if constexpr (is_flown<References>) {
+          auto& states = references.states;
+          if (k + 1 >= std::size(states)) return status{step_kind::predict, reason::missing_reference};
+          const auto p = f.predict(*current, here.step, std::data(states)[k], std::data(states)[k + 1]);
+          return take(p, std::data(states)[k + 1]);
         } else {
           if (k >= std::size(references)) return status{step_kind::predict, reason::missing_reference};
-          const auto& about = std::data(references)[k];
-          const auto p = f.predict(current, here.step, about);
-          const bool known = k + 1 < std::size(references);
-          const auto u = f.update(p, here.measurement, known ? std::data(references)[k + 1] : arrival(f.propagator(), about, here.step));
-          record(nodes[k], p, u);
-          current = u.posterior;
-          return u.status;
+          vector<Scalar, estimate_type::dimension> arrived;
+          const auto p = f.predict(*current, here.step, std::data(references)[k], arrived);
+          return k + 1 < std::size(references) ? take(p, std::data(references)[k + 1]) : take(p, arrived);
         }
       };
       const status s = one();
       if (!s.ok()) return fail(s);
-      const auto& n = nodes[k];
       const Scalar zero(0.0);
       result.chi2 += select(n.outlier, zero, n.chi2);
       result.ndf += select(n.outlier, count<Scalar>(0), count<Scalar>(n.measurement_dimension));

@@ -49,6 +49,13 @@ template <class Scalar, int Rows, int Cols, class T>
   }
 }
 
+/// What f() returns as a matrix of the wanted scalar; without a copy where it is one already.
+template <class Scalar, int Rows, int Cols, class F>
+[[nodiscard]] matrix<Scalar, Rows, Cols> converted(const F& f) {
+  if constexpr (std::is_same_v<decltype(f()), matrix<Scalar, Rows, Cols>>) return f();
+  else return as_matrix<Scalar, Rows, Cols>(f());
+}
+
 }  // namespace detail
 
 /// Rows x Cols numbers on the stack, where either may be Eigen::Dynamic up to a maximum known at compile time: never on the heap.

@@ -6,7 +6,7 @@
 #include <span>
 #include <type_traits>
 
-#include <scifi/kalman/cholesky.hpp>
+#include <scifi/kalman/ldl.hpp>
 #include <scifi/kalman/node.hpp>
 #include <scifi/kalman/symmetric.hpp>
 
@@ -18,43 +18,56 @@ namespace scifi::kalman {
 /// but adds positive terms only. Rauch, Tung, Striebel 1965, AIAA J. 3, 1445, eq. 3.28-3.30.
 template <class Scalar, int N, int MaxM>
 [[nodiscard]] status smooth_one(node<Scalar, N, MaxM>& here, const node<Scalar, N, MaxM>& after) {
-  const cholesky<Scalar, N> factor(after.predicted.covariance);
+  const ldl<Scalar, N> factor(after.predicted.covariance);
   if (!any_of(factor.ok())) return {step_kind::smooth, reason::not_positive_definite};
-  const matrix<Scalar, N, N> moved = after.jacobian.lazyProduct(here.filtered.covariance);
-  const matrix<Scalar, N, N> gain = detail::transposed<Scalar, N, N>(factor.template solve<N>(moved));
+  matrix<Scalar, N, N> gain = detail::times_transposed<Scalar, N, N, N>(here.filtered.covariance, after.jacobian);
+  factor.template decorrelate<N>(gain);
+  factor.template recombine<N>(gain, gain);
   const vector<Scalar, N> change = after.smoothed.mean - after.predicted.mean;
   matrix<Scalar, N, N> rest = matrix<Scalar, N, N>::Identity();
-  rest.noalias() -= gain.lazyProduct(after.jacobian);
+  rest -= detail::times<Scalar, N, N, N>(gain, after.jacobian);
   const matrix<Scalar, N, N> kept = detail::similarity<Scalar, N, N>(rest, here.filtered.covariance);
   const matrix<Scalar, N, N> outside = after.noise + after.smoothed.covariance;
-  here.smoothed.mean = here.filtered.mean + gain.lazyProduct(change);
-  here.smoothed.covariance = detail::similarity<Scalar, N, N>(gain, outside, kept);
+  here.smoothed.mean = here.filtered.mean + detail::times_vector<Scalar, N, N>(gain, change);
+  detail::set_similarity<Scalar, N, N>(here.smoothed.covariance, gain, outside, kept);
   return {step_kind::smooth, fault_of(here.smoothed.mean, here.smoothed.covariance)};
 }
+
+/// The Rauch-Tung-Striebel smoother, in a form that keeps covariances positive however much smoothing shrinks them.
+struct rauch_tung_striebel {
+  /// Sets `smoothed` of all nodes. `start`, where given, is replaced by the smoothed estimate at the start of the first step.
+  template <class Scalar, int N, int MaxM>
+  [[nodiscard]] status operator()(std::span<node<Scalar, N, MaxM>> nodes, estimate<Scalar, N>* start = nullptr) const {
+    constexpr status fine{step_kind::smooth, reason::none};
+    if (nodes.empty()) return fine;
+    if (!nodes.back().status.ok()) return nodes.back().status;
+    nodes.back().smoothed = nodes.back().filtered;
+    for (std::size_t k = nodes.size() - 1; k-- > 0;) {
+      if (!nodes[k].status.ok()) return nodes[k].status;
+      const status s = smooth_one(nodes[k], nodes[k + 1]);
+      if (!s.ok()) return nodes[k].status = s;
+    }
+    if (start == nullptr) return fine;
+    node<Scalar, N, MaxM> begin;
+    begin.filtered = *start;
+    const status s = smooth_one(begin, nodes[0]);
+    if (s.ok()) *start = begin.smoothed;
+    return s;
+  }
+};
 
 /// Smooths the nodes of a run, last to first: afterwards `smoothed` of every node knows all measurements.
 ///
 /// Pass the nodes that were reached. On failure the node it happened at holds the status; those before it are not smoothed.
-template <class Scalar, int N, int MaxM>
-[[nodiscard]] status smooth(std::span<node<Scalar, N, MaxM>> nodes) {
-  if (nodes.empty()) return {step_kind::smooth, reason::none};
-  if (!nodes.back().status.ok()) return nodes.back().status;
-  nodes.back().smoothed = nodes.back().filtered;
-  for (std::size_t k = nodes.size() - 1; k-- > 0;) {
-    if (!nodes[k].status.ok()) return nodes[k].status;
-    const status s = smooth_one(nodes[k], nodes[k + 1]);
-    if (!s.ok()) {
-      nodes[k].status = s;
-      return s;
-    }
-  }
-  return {step_kind::smooth, reason::none};
+template <class Scalar, int N, int MaxM, class Smoother = rauch_tung_striebel>
+[[nodiscard]] status smooth(std::span<node<Scalar, N, MaxM>> nodes, const Smoother& smoother = {}) {
+  return smoother(nodes);
 }
 
 /// The same for any contiguous range of nodes.
-template <class Nodes>
-[[nodiscard]] status smooth(Nodes& nodes) {
-  return smooth(std::span<std::remove_reference_t<decltype(*std::data(nodes))>>(nodes));
+template <class Nodes, class Smoother = rauch_tung_striebel>
+[[nodiscard]] status smooth(Nodes& nodes, const Smoother& smoother = {}) {
+  return smoother(std::span<std::remove_reference_t<decltype(*std::data(nodes))>>(nodes));
 }
 
 }  // namespace scifi::kalman

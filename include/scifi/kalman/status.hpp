@@ -65,14 +65,16 @@ struct status {
 
 /// What is wrong with a mean and a covariance, judged by finiteness and the signs of the variances: O(N), not a full test of definiteness.
 template <class Scalar, int N>
-[[nodiscard]] reason fault_of(const vector<Scalar, N>& mean, const matrix<Scalar, N, N>& covariance) {
-  Scalar probe(0.0);
+[[nodiscard, gnu::always_inline]] inline reason fault_of(const vector<Scalar, N>& mean, const matrix<Scalar, N, N>& covariance) {
+  Scalar of_mean(0.0);
+  Scalar of_variances(0.0);
   Scalar lowest(covariance(0, 0));
   for (int i = 0; i < N; ++i) {
-    probe += mean(i);
-    probe += covariance(i, i);
+    of_mean += mean(i);
+    of_variances += covariance(i, i);
     lowest = smaller_of<Scalar>(lowest, covariance(i, i));
   }
+  const Scalar probe = of_mean + of_variances;
   if (!any_of(is_finite<Scalar>(probe))) return reason::not_finite;
   if (!any_of(lowest >= Scalar(0.0))) return reason::not_positive_definite;
   return reason::none;
