@@ -10,6 +10,8 @@
 #include <scifi/digit_to_cluster/cluster_finder.hpp>
 #include <scifi/event/event.hpp>
 #include <scifi/event/truth.hpp>
+#include <scifi/field/graded_field.hpp>
+#include <scifi/field/uniform_field.hpp>
 #include <scifi/geometry/mice.hpp>
 #include <scifi/hit_to_digit/digitiser.hpp>
 #include <scifi/information/track_bound.hpp>
@@ -26,4 +28,5 @@
 #include <scifi/track_model/helix_propagator.hpp>
 #include <scifi/track_model/line_propagator.hpp>
 #include <scifi/track_model/material_noise.hpp>
+#include <scifi/track_model/nystrom_propagator.hpp>
 #include <scifi/version.hpp>

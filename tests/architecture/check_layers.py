@@ -12,7 +12,7 @@ import sys
 
 CORE = {"core"}
 FIT = CORE | {"kalman", "material"}
-NOUNS = FIT | {"geometry", "track_model", "event"}
+NOUNS = FIT | {"field", "geometry", "track_model", "event"}
 ARROWS = ["particle_to_hit", "hit_to_digit", "readout_to_digit", "digit_to_cluster", "cluster_to_space_point",
           "space_point_to_candidate", "candidate_to_track"]
 
@@ -21,8 +21,9 @@ ALLOWED = {
     "core": set(),
     "kalman": CORE,
     "material": CORE,
+    "field": CORE,
     "geometry": CORE | {"material"},
-    "track_model": FIT,
+    "track_model": FIT | {"field"},
     "event": CORE | {"geometry", "kalman"},
     **{arrow: NOUNS for arrow in ARROWS},
     "chain": NOUNS | set(ARROWS),
@@ -35,7 +36,7 @@ UMBRELLAS = {
     "kalman.hpp": CORE | {"kalman"},
     "material.hpp": CORE | {"material"},
     "geometry.hpp": CORE | {"material", "geometry"},
-    "track_model.hpp": FIT | {"track_model"},
+    "track_model.hpp": FIT | {"field", "track_model"},
     "event.hpp": ALLOWED["event"] | {"event"},
     "scifi.hpp": NOUNS | set(ARROWS) | {"chain", "information"},
     "version.hpp": set(),

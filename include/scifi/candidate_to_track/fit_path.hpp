@@ -39,11 +39,12 @@ inline void add_to(slab_stack<4>& stack, const slab& more) {
   constexpr double touching = 1e-6;  // mm: surfaces this close have no gas between them
   fit_path path;
   path.surfaces = surfaces_along(t, -1);
-  const auto between = [&t](double dz, const slab_stack<4>& leaving, const slab_stack<4>& entering) {
+  const auto between = [&t](double from, double to, const slab_stack<4>& leaving, const slab_stack<4>& entering) {
     leg l;
-    l.dz = dz;
+    l.z = from;
+    l.dz = to - from;
     l.direction = -1;
-    const double free = -dz - thickness(leaving) - thickness(entering);
+    const double free = from - to - thickness(leaving) - thickness(entering);
     if (free > touching) {
       l.start = leaving;
       l.gap.add(whole(t.gas, free));
@@ -56,14 +57,14 @@ inline void add_to(slab_stack<4>& stack, const slab& more) {
   };
   for (std::size_t i = 0; i < path.surfaces.size(); ++i) {
     if (i == 0)
-      path.legs.push_back(leg{0.0, -1, {}, {}, {}});
+      path.legs.push_back(leg{0.0, -1, {}, {}, {}, path.surfaces[0].z});
     else
-      path.legs.push_back(between(path.surfaces[i].z - path.surfaces[i - 1].z, path.surfaces[i - 1].below, path.surfaces[i].above));
+      path.legs.push_back(between(path.surfaces[i - 1].z, path.surfaces[i].z, path.surfaces[i - 1].below, path.surfaces[i].above));
   }
   if (!path.surfaces.empty()) {
     const surface& first = path.surfaces.back();
     path.z_reference = first.z_reference;
-    path.legs.push_back(between(first.z_reference - first.z, first.below, {}));
+    path.legs.push_back(between(first.z, first.z_reference, first.below, {}));
   }
   return path;
 }

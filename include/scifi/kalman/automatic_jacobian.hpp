@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MPL-2.0
 #pragma once
 
+#include <concepts>
+
 #include <Eigen/Core>
 #include <unsupported/Eigen/AutoDiff>
 
@@ -17,6 +19,7 @@ struct automatic_jacobian {
   Function f;
 
   template <class Scalar, int N, class Step>
+    requires std::invocable<const Function&, const vector<Eigen::AutoDiffScalar<vector<Scalar, N>>, N>&, const Step&>
   [[nodiscard]] propagated<Scalar, N> propagate(const vector<Scalar, N>& x, const Step& step) const {
     using dual = Eigen::AutoDiffScalar<vector<Scalar, N>>;
     vector<dual, N> start;

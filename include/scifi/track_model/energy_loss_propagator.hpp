@@ -13,11 +13,13 @@
 #include <scifi/material/particle.hpp>
 #include <scifi/track_model/leg.hpp>
 #include <scifi/track_model/slope_state.hpp>
+#include <scifi/track_model/stretch.hpp>
 
 namespace scifi {
 
 /// A propagator of slope_state that flies with another one and loses energy in the material of the leg.
 ///
+/// The flight takes a distance (helix_propagator) or a `stretch` (nystrom_propagator).
 /// The direction of flight stays, q/pz scales with p/p'. Energy is lost on a step along `travel` and gained on a step against it. The thin
 /// material at the start acts before the flight, the gap and the thin material at the end after it; the loss of both is taken at the momentum at the
 /// start of the leg, right while a leg takes a small share of the energy (split it otherwise). Jacobian complete, slopes included
@@ -35,7 +37,7 @@ struct energy_loss_propagator {
   [[nodiscard]] kalman::propagated<Scalar, 5> propagate(const vector<Scalar, 5>& start, const leg& step) const {
     using s = slope_state;
     using std::sqrt;
-    if (std::is_same_v<EnergyLoss, no_energy_loss> || (step.start.empty() && step.gap.empty() && step.finish.empty())) return flight.propagate(start, step.dz);
+    if (std::is_same_v<EnergyLoss, no_energy_loss> || (step.start.empty() && step.gap.empty() && step.finish.empty())) return flown(flight, start, step);
 
     const Scalar tx = start[s::tx];
     const Scalar ty = start[s::ty];
@@ -54,20 +56,24 @@ struct energy_loss_propagator {
     const changed<Scalar> arriving = after_loss(start, p, path, sign, total);
     vector<Scalar, 5> flying = start;
     flying[s::q_over_pz] = departing.q_over_pz;
-    kalman::propagated<Scalar, 5> end = flight.propagate(flying, step.dz);
-    end.state[s::q_over_pz] = arriving.q_over_pz;
+    kalman::propagated<Scalar, 5> end = flown(flight, flying, step);
 
     // The flight starts with the q/pz that the loss left, which the slopes at the start have a hand in.
     auto& j = end.jacobian;
-    for (int i = 0; i < s::q_over_pz; ++i) {
+    for (int i = 0; i < s::dimension; ++i) {
       const Scalar by_k = j(i, s::q_over_pz);
       j(i, s::tx) += by_k * departing.d_tx;
       j(i, s::ty) += by_k * departing.d_ty;
       j(i, s::q_over_pz) = by_k * departing.d_q_over_pz;
     }
-    j(s::q_over_pz, s::tx) = arriving.d_tx;
-    j(s::q_over_pz, s::ty) = arriving.d_ty;
-    j(s::q_over_pz, s::q_over_pz) = arriving.d_q_over_pz;
+    // What is lost after the departure scales the q/pz that the flight, which may turn pz, leaves.
+    const Scalar scale = arriving.q_over_pz / departing.q_over_pz;
+    const Scalar flown_k = end.state[s::q_over_pz] / departing.q_over_pz;
+    for (int i = 0; i < s::dimension; ++i) j(s::q_over_pz, i) *= scale;
+    j(s::q_over_pz, s::tx) += flown_k * (arriving.d_tx - scale * departing.d_tx);
+    j(s::q_over_pz, s::ty) += flown_k * (arriving.d_ty - scale * departing.d_ty);
+    j(s::q_over_pz, s::q_over_pz) += flown_k * (arriving.d_q_over_pz - scale * departing.d_q_over_pz);
+    end.state[s::q_over_pz] *= scale;
     return end;
   }
 

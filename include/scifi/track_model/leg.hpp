@@ -15,6 +15,7 @@ struct leg {
   slab_stack<4> start;   ///< thin, at the first surface
   slab_stack<1> gap;     ///< thick, spread over dz
   slab_stack<4> finish;  ///< thin, at the second surface
+  double z = 0.0;        ///< where the first surface is, mm; asked by propagators in a field that changes along z, not by others
 };
 
 }  // namespace scifi
