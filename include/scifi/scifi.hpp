@@ -10,7 +10,10 @@
 #include <scifi/digit_to_cluster/cluster_finder.hpp>
 #include <scifi/event/event.hpp>
 #include <scifi/event/truth.hpp>
+#include <scifi/field/coil_field.hpp>
 #include <scifi/field/graded_field.hpp>
+#include <scifi/field/placed_field.hpp>
+#include <scifi/field/tabulate.hpp>
 #include <scifi/field/uniform_field.hpp>
 #include <scifi/geometry/mice.hpp>
 #include <scifi/hit_to_digit/digitiser.hpp>

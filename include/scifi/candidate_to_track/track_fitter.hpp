@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <concepts>
 #include <cstddef>
 #include <functional>
 #include <limits>
@@ -44,19 +45,25 @@ struct track_fit_options {
 /// Candidates to tracks: a Kalman filter over their clusters, one coordinate each, from the last station to the reference surface at station 1, and a smoother.
 ///
 /// All material and the policies given act between the surfaces. Linearised about a reference track, so that the first, badly known slopes do no harm.
-/// Const, shared between threads.
-template <class EnergyLoss, class Scattering, class Straggling, class Update = kalman::joseph, class Gate = kalman::no_gate>
+/// `Flight` carries a bent track in vacuum: the helix of `options.field`, or a nystrom_propagator in any field. Const, shared between threads.
+template <class EnergyLoss, class Scattering, class Straggling, class Update = kalman::joseph, class Gate = kalman::no_gate, class Flight = helix_propagator>
 class track_fitter {
  public:
-  using helix_filter = kalman::filter<energy_loss_propagator<helix_propagator, EnergyLoss>, material_noise<Scattering, Straggling>, Update, Gate>;
+  using helix_filter = kalman::filter<energy_loss_propagator<Flight, EnergyLoss>, material_noise<Scattering, Straggling>, Update, Gate>;
   using line_filter = kalman::filter<leg_propagator<line_propagator>, line_material_noise<Scattering>, Update, Gate>;
 
   track_fitter(const tracker& where, const track_fit_options& options, const particle& hypothesis, EnergyLoss loss, Scattering scattering, Straggling straggling,
                Update update = {}, Gate gate = {})
+    requires std::same_as<Flight, helix_propagator>
+      : track_fitter(where, options, hypothesis, loss, scattering, straggling, update, gate, helix_propagator{options.field}) {}
+
+  /// With a flight of one's own, in the tracker frame; `options.field` then serves only the seed, on its short way from the candidate to the first surface.
+  track_fitter(const tracker& where, const track_fit_options& options, const particle& hypothesis, EnergyLoss loss, Scattering scattering, Straggling straggling,
+               Update update, Gate gate, Flight flight)
       : options_(options),
         travel_(where.beam_direction),
         path_(fit_path_of(where)),
-        helix_({{options.field}, loss, hypothesis, where.beam_direction}, {scattering, straggling, hypothesis}, update, gate),
+        helix_({flight, loss, hypothesis, where.beam_direction}, {scattering, straggling, hypothesis}, update, gate),
         line_({{}}, {scattering, hypothesis, options.line_momentum}, update, gate) {}
 
   /// One surface of the way and what was measured there.

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -99,15 +100,18 @@ struct reconstruction_options {
   fibre_doublet fibre{};            ///< what the planes are made of, for the resolution of clusters
 };
 
-/// The standard chain for trackers of scintillating fibres.
-[[nodiscard]] inline auto make_reconstruction(const detector& where, const reconstruction_options& options) {
+/// The standard chain for trackers of scintillating fibres; `flight_in(tracker)` gives the propagator of slope_state with which the fit flies in that tracker,
+/// in its frame: helix_propagator or nystrom_propagator. Pattern recognition takes the helix of `options.field`, the mean of the field on the axis.
+template <class FlightIn>
+[[nodiscard]] auto make_reconstruction(const detector& where, const reconstruction_options& options, const FlightIn& flight_in) {
   const highland_scattering scattering;
   // A track crosses all stations of its tracker, each one layer: its typical loss is the median of the total.
   std::size_t stations = 1;
   for (const tracker& t : where.trackers) stations = std::max(stations, t.stations.size());
   const median_energy_loss loss{static_cast<double>(stations)};
   const landau_straggling straggling{static_cast<double>(stations)};
-  using fitter = track_fitter<median_energy_loss, highland_scattering, landau_straggling>;
+  using flight = std::decay_t<std::invoke_result_t<const FlightIn&, const tracker&>>;
+  using fitter = track_fitter<median_energy_loss, highland_scattering, landau_straggling, kalman::joseph, kalman::no_gate, flight>;
 
   track_finder_options finding;
   finding.field = options.field;
@@ -127,8 +131,14 @@ struct reconstruction_options {
   points.use = cluster_use::shared;
   std::vector<tracker_stages<track_finder, fitter>> trackers;
   for (const tracker& t : where.trackers)
-    trackers.push_back({t, track_finder(t, finding, options.hypothesis, scattering), fitter(t, fitting, options.hypothesis, loss, scattering, straggling)});
+    trackers.push_back({t, track_finder(t, finding, options.hypothesis, scattering),
+                        fitter(t, fitting, options.hypothesis, loss, scattering, straggling, kalman::joseph{}, kalman::no_gate{}, flight_in(t))});
   return reconstruction(where, clusters, points, std::move(trackers));
+}
+
+/// The same in a uniform field.
+[[nodiscard]] inline auto make_reconstruction(const detector& where, const reconstruction_options& options) {
+  return make_reconstruction(where, options, [field = options.field](const tracker&) { return helix_propagator{field}; });
 }
 
 }  // namespace scifi

@@ -14,6 +14,7 @@
 #include <scifi/core/units.hpp>
 #include <scifi/event/candidate.hpp>
 #include <scifi/event/space_point.hpp>
+#include <scifi/field/coil.hpp>
 #include <scifi/geometry/fibre.hpp>
 #include <scifi/geometry/mice.hpp>
 #include <scifi/io/mice_field.hpp>
@@ -48,7 +49,7 @@ class mice_geometry_builder {
       top_.fail("holds no module with the property Tracker");
     }
     std::sort(found_.begin(), found_.end(), [](const found_tracker& a, const found_tracker& b) { return a.result.id < b.result.id; });
-    const std::vector<mice_coil> coils = mice_coils(top_);
+    const std::vector<coil> coils = mice_coils(top_);
     for (found_tracker& f : found_) {
       if (!out_.detector.trackers.empty() && out_.detector.trackers.back().id == f.result.id)
         f.where.module->at("Tracker").fail("tracker " + std::to_string(f.result.id) + " is given twice");
