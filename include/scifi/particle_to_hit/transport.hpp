@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MPL-2.0
 #pragma once
 
-#include <algorithm>
 #include <cmath>
+#include <concepts>
 #include <cstddef>
 #include <limits>
 #include <optional>
@@ -17,7 +17,7 @@
 #include <scifi/particle_to_hit/energy_loss_sampling.hpp>
 #include <scifi/particle_to_hit/fibre_crossing.hpp>
 #include <scifi/particle_to_hit/fibre_layer.hpp>
-#include <scifi/particle_to_hit/helix_step.hpp>
+#include <scifi/particle_to_hit/flight_propagator.hpp>
 #include <scifi/particle_to_hit/knocked_on.hpp>
 #include <scifi/particle_to_hit/moving_particle.hpp>
 #include <scifi/particle_to_hit/scattering_sampling.hpp>
@@ -25,12 +25,13 @@
 
 namespace scifi {
 
-/// Follows one particle through a tracker: an exact helix between the surfaces, scattering in the middle of each slab of material (and of the gas
-/// between the stations), and a loss of energy drawn for each fibre core and for what is between the cores. Inside a row of fibres the track is straight.
+/// Follows one particle through a tracker: in flight between the surfaces, by default on the exact helix of `settings.field`; scattering in the middle of
+/// each slab of material (and of the gas between the stations), and a loss of energy drawn for each fibre core and for what is between the cores. Inside a
+/// row of fibres the track is straight.
 ///
 /// Half a doublet holds one row of fibres: the last slab below and the first above z_measured are the two rows. Knocked-on electrons and those of
 /// decays are followed by an `electron_flight`, muons of pions like their parent. Strong interactions are left out. Const: shared between threads.
-template <class Scattering = coulomb_scattering, class Loss = collision_loss>
+template <class Scattering = coulomb_scattering, class Loss = collision_loss, class Propagator = helix_flight>
 class transport {
   static_assert(scattering_sampler<Scattering>,
                 "scifi: the scattering of a transport needs a const member sample(p, particle, slab, path_over_thickness, random) that returns two "
@@ -38,14 +39,23 @@ class transport {
   static_assert(energy_loss_sampler<Loss>,
                 "scifi: the energy loss of a transport needs a const member sample(p, particle, medium, path, random) that returns MeV; wrap an "
                 "energy-loss policy as fixed_loss<policy>.");
+  static_assert(flight_propagator<Propagator>,
+                "scifi: the propagator of a transport needs a const member propagate(moving_particle, dz) that returns the moving_particle after dz mm; "
+                "wrap a propagator of slopes as slope_flight<propagator>.");
 
  public:
   transport(const tracker& t, const transport_settings& settings, Scattering scattering = {}, Loss loss = {})
+    requires std::same_as<Propagator, helix_flight>
+      : transport(t, settings, scattering, loss, helix_flight{settings.field}) {}
+
+  /// With a flight of one's own. Electrons that are knocked on keep to the helix of `settings.field`: they curl up within millimetres.
+  transport(const tracker& t, const transport_settings& settings, Scattering scattering, Loss loss, Propagator propagator)
       : tracker_id_(t.id),
         gas_(t.gas),
         settings_(settings),
         scattering_(scattering),
         loss_(loss),
+        propagator_(propagator),
         layers_(fibre_layers(t)),
         electrons_(t, settings) {}
 
@@ -119,10 +129,8 @@ class transport {
   }
 
   void through_slab(flight& f, const fibre_layer& l, const slab& s, int row) const {
-    if (row == no_row)
-      through(f, s);
-    else
-      through_row(f, l, s, row);
+    if (row == no_row) through(f, s);
+    else through_row(f, l, s, row);
   }
 
   /// Half a slab, the turn, the loss, the other half.
@@ -154,15 +162,8 @@ class transport {
     double between = s.thickness * path_factor;
     for (const fibre_crossing& core : cores) {
       if (f.over()) return;
-      hit h;
-      h.particle = f.index;
-      h.parent = f.parent;
-      h.pdg_id = f.now.hypothesis.pdg_id;
-      h.id = {tracker_id_, l.at.station, l.at.plane, channel_of_fibre(settings_.doublet, core.fibre)};
-      h.fibre = core.fibre;
-      h.position = entered.position + core.entry * d;
-      h.momentum = f.now.momentum;
-      h.t = entered.t + core.entry / speed;
+      hit h{f.index, {tracker_id_, l.at.station, l.at.plane, channel_of_fibre(settings_.doublet, core.fibre)}, core.fibre, 0.0, entered.t + core.entry / speed,
+            entered.position + core.entry * d, f.now.momentum, f.parent, f.now.hypothesis.pdg_id};
       h.edep = lose(f, s.medium, core.chord, [&](double along) { return vector<double, 3>(h.position + along * d); });
       if (h.edep > 0.0) f.out.hits.push_back(h);
       between -= core.chord;
@@ -178,16 +179,18 @@ class transport {
 
   void fly(flight& f, double distance) const {
     double dz = f.direction * distance;
-    // Proper time: m dz / (pz c).
-    const double life = f.now.hypothesis.mass * distance / (std::abs(f.now.momentum.z()) * constants::speed_of_light);
+    moving_particle end = propagator_.propagate(f.now, dz);
+    const double life = (end.t - f.now.t) * f.now.hypothesis.mass / f.now.energy();  // proper time
     const bool decays = life >= f.life;
-    if (decays) dz *= f.life / life;
-    // NaN counts as outside.
-    if (!(largest_radius(f.now, dz, settings_.field) <= settings_.radius)) {
+    if (decays) {
+      dz *= f.life / life;
+      end = propagator_.propagate(f.now, dz);
+    }
+    if (!stays_within(settings_.radius, propagator_, f.now, end, dz)) {
       f.end = flight_end::left;
       return;
     }
-    helix_step(f.now, dz, settings_.field);
+    f.now = end;
     f.life -= life;
     if (decays) f.end = flight_end::decayed;
   }
@@ -235,6 +238,7 @@ class transport {
   transport_settings settings_;
   Scattering scattering_;
   Loss loss_;
+  Propagator propagator_;
   std::vector<fibre_layer> layers_;  // in order of growing z
   electron_flight electrons_;
 };

@@ -17,7 +17,7 @@ enum class flight_end {
 
 /// What a transport is told besides the tracker.
 struct transport_settings {
-  double field = 0.0;       ///< Bz in the tracker frame, (MeV/c)/(e mm): B in tesla times units::tesla
+  double field = 0.0;       ///< Bz in the tracker frame, (MeV/c)/(e mm): B in tesla times units::tesla; for electrons also where another propagator flies the rest
   double radius = 160.0;    ///< particles further from the axis are dropped, mm
   fibre_doublet doublet{};  ///< the sensitive layer of every plane
   double follow_electrons_from = 45.0 * units::keV;  ///< knocked-on electrons are followed from here on: their range in plastic is 0.03 mm
