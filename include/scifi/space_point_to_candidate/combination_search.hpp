@@ -126,6 +126,15 @@ class combination_search {
     return norm(b.position - a.position) > reach * reach;
   }
 
+  /// No brighter than thermal noise is.
+  [[nodiscard]] bool dim(int point) const {
+    const space_point& p = points_[static_cast<std::size_t>(point)];
+    return p.npe < options_.dim_light * static_cast<double>(p.clusters.size());
+  }
+  [[nodiscard]] int dim_points() const {
+    return static_cast<int>(std::count_if(chosen_.begin(), chosen_.end(), [this](int point) { return dim(point); }));
+  }
+
   /// Every triple of points in the first three stations.
   void start() {
     const auto station = [this](std::size_t level) { return static_cast<std::size_t>(stations_[level]); };
@@ -135,8 +144,8 @@ class combination_search {
         if (too_steep(arc(a), arc(b))) continue;
         for (const int c : list(2)) {
           if (budget_ <= 0) return;
-          if (too_steep(arc(b), arc(c))) continue;
           chosen_ = {a, b, c};
+          if (too_steep(arc(b), arc(c)) || dim_points() > options_.max_dim_points) continue;
           if (!bent()) follow(pass(0.0, 0.0));
           else
             for (const curvature_hypothesis& h : hypotheses(arc(a), arc(b), arc(c))) {
@@ -159,9 +168,11 @@ class combination_search {
     }
     const double t2 = norm(fit.slope());
     const double scatter = scattering_.slope_variance(static_cast<std::size_t>(stations_[level - 1]), expected_momentum(options_, fit.curvature(), t2), t2);
+    const bool dim_allowed = dim_points() < options_.max_dim_points;
     arc_fit ahead = fit;
     bool flown = false;
     for (const int next : list(level)) {
+      if (!dim_allowed && dim(next)) continue;
       if (!flown || ahead.z() != arc(next).z) {  // the points of a station share z, doublets aside
         ahead = fit;
         ahead.fly(arc(next).z, scatter);
@@ -186,16 +197,11 @@ class combination_search {
     c.z = fit.z();
     c.chi2 = fit.chi2();
     c.ndf = ndf;
-    double light = 0.0;
-    double clusters = 0.0;
     for (const int point : chosen_) {
       const space_point& p = points_[static_cast<std::size_t>(point)];
-      light += p.npe;
-      clusters += static_cast<double>(p.clusters.size());
       c.chi2 += p.chi2;
       c.ndf += static_cast<int>(p.clusters.size()) - 2;
     }
-    if (light < o.least_light * clusters) return;
     c.seed = bent() ? seed_of_helix(fit, o.field) : seed_of_line(fit, where_.travel * o.line_charge / o.line_momentum);
     // The same points by another hypothesis: keep the better.
     if (!work_.found.empty() && std::equal(c.space_points.begin(), c.space_points.end(), work_.found.back().space_points.begin(), work_.found.back().space_points.end())) {

@@ -22,7 +22,8 @@ struct track_finder_options {
   double chi2_per_ndf = 12.0;      ///< ... in the second search, for tracks that scattered hard
   double cluster_gain = 10.0;      ///< chi2 that one cluster more is worth when candidates compete
   q_over_pz_prior prior{};         ///< of either sign of curvature
-  double least_light = 5.0;        ///< photo-electrons per cluster, mean of a candidate: a particle leaves about 12, thermal noise 2 to 3
+  double dim_light = 5.0;          ///< photo-electrons per cluster below which a space point may be noise: a particle leaves about 12, thermal noise 2 to 3
+  int max_dim_points = 1;          ///< such points in a candidate
   int max_shared_clusters = 3;     ///< with better candidates: two tracks may cross the same channel
   int max_arc_fits = 100000;       ///< bound on the search in one tracker
 };

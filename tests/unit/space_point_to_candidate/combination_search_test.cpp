@@ -95,12 +95,23 @@ TEST_CASE("a point with two clusters taken is left out, one with a single one is
   CHECK(b.work.found[0].space_points.size() == 4);
 }
 
-TEST_CASE("points as dim as thermal noise are no candidate", "[space_point_to_candidate]") {
-  bench b(1);
-  for (space_point& p : b.points) p.npe = 3 * 2.5;
-  combination_search search(b.setting, b.points, b.work);
-  search(5, false);
-  CHECK(b.work.found.empty());
+TEST_CASE("a candidate may have one point as dim as thermal noise, anywhere, but not two", "[space_point_to_candidate]") {
+  for (std::size_t first = 0; first < 5; ++first) {
+    bench b(1);
+    combination_search search(b.setting, b.points, b.work);
+    b.points[first].npe = 3 * 2.5;
+    search(5, false);
+    CHECK(b.work.found.size() == 1);
+    for (std::size_t second = first + 1; second < 5; ++second) {
+      b.points[second].npe = 3 * 2.5;
+      CAPTURE(first, second);
+      search(5, false);
+      CHECK(b.work.found.empty());
+      search(4, false);  // four of the five without one of the two, each with one: two choices
+      CHECK(b.work.found.size() == 2);
+      b.points[second].npe = 3 * 12.0;
+    }
+  }
 }
 
 TEST_CASE("four of five stations are five choices", "[space_point_to_candidate]") {
