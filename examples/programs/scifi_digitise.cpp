@@ -65,13 +65,13 @@ class digit_output {
     if (!json_) file_.write(scifi::digit_columns);
   }
 
-  void write(long number, const std::vector<scifi::counted_digit>& digits) {
+  void write(long number, const std::vector<scifi::raw_digit>& digits) {
     if (json_) {
       light_.clear();
-      for (const scifi::counted_digit& d : digits) light_.push_back(d.light);
+      for (const scifi::raw_digit& d : digits) light_.push_back(d.seen());
       scifi::append_mice_spill(pending_, number, light_);
     } else {
-      for (const scifi::counted_digit& d : digits) scifi::append_digit(pending_, number, d.light, d.adc);
+      for (const scifi::raw_digit& d : digits) scifi::append_digit(pending_, number, d);
     }
     constexpr std::size_t block = std::size_t{1} << 20;
     if (pending_.size() >= block) flush();
@@ -143,7 +143,7 @@ void run(options& o) {
   digit_output out(o.output);
   scifi::readout_tally sum;
   scifi::raw_event event;
-  std::vector<scifi::counted_digit> digits;
+  std::vector<scifi::raw_digit> digits;
   long events = 0;
   while (source.read(event)) {
     sum += digitise(event.counts, digits);

@@ -7,13 +7,15 @@
 #include <map>
 #include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 
 #include <fmt/format.h>
 
+#include <scifi/event/raw_digit.hpp>
 #include <scifi/event/truth.hpp>
 #include <scifi/hit_to_digit/digit_sources.hpp>
-#include <scifi/hit_to_digit/digitiser.hpp>
+#include <scifi/io/digit_writer.hpp>
 
 namespace scifi::simulate {
 
@@ -21,8 +23,8 @@ namespace scifi::simulate {
 enum table : std::size_t { digits, truths, hits, sources, particles, tables };
 
 inline constexpr std::array<const char*, tables> names{"digits", "truth", "hits", "sources", "particles"};
-inline constexpr std::array<const char*, tables> headers{
-    "event,tracker,station,plane,channel,adc,npe\n", "event,track,pdg,tracker,station,plane,x_mm,y_mm,z_mm,px_MeV,py_MeV,pz_MeV\n",
+inline constexpr std::array<std::string_view, tables> headers{
+    digit_columns, "event,track,pdg,tracker,station,plane,x_mm,y_mm,z_mm,px_MeV,py_MeV,pz_MeV\n",
     "event,track,parent,pdg,tracker,station,plane,fibre,edep_MeV,t_ns,x_mm,y_mm,z_mm,px_MeV,py_MeV,pz_MeV\n", "event,tspc,track,parent,pdg,hits,edep_MeV\n",
     "event,track,parent,pdg,origin,tracker,t_ns,x_mm,y_mm,z_mm,px_MeV,py_MeV,pz_MeV\n"};
 
@@ -35,8 +37,7 @@ void add_row(std::string& out, fmt::format_string<Values...> format, Values&&...
 }
 
 inline void add_digits(long event, std::span<const raw_digit> made, rows& out) {
-  for (const raw_digit& d : made)
-    add_row(out[digits], "{},{},{},{},{},{},{:.3f}\n", event, d.id.tracker, d.id.station, d.id.plane, d.id.channel, d.adc, d.npe);
+  for (const raw_digit& d : made) append_digit(out[digits], event, d);
 }
 
 inline void add_crossings(long event, const truth& real, rows& out) {

@@ -6,24 +6,19 @@
 #include <cstdint>
 
 #include <scifi/core/random.hpp>
+#include <scifi/event/adc_line.hpp>
 #include <scifi/geometry/channel_id.hpp>
 
 namespace scifi {
-
-/// Calibration of one channel: counts = gain npe + pedestal.
-struct channel_calibration {
-  double gain = 10.0;      ///< ADC counts per photo-electron
-  double pedestal = 28.0;  ///< ADC counts
-};
 
 /// A calibration per channel, drawn from Gaussians and kept above a fifth of their mean: a function of seed and channel alone, not stored.
 /// Defaults: gains and pedestals like those of the MICE photon counters.
 struct drawn_calibration {
   std::uint64_t seed = 0;
-  channel_calibration mean{9.5, 26.0};
-  channel_calibration width{0.6, 1.2};
+  adc_line mean{9.5, 26.0};
+  adc_line width{0.6, 1.2};
 
-  [[nodiscard]] channel_calibration operator()(const channel_id& id) const {
+  [[nodiscard]] adc_line operator()(const channel_id& id) const {
     constexpr std::uint32_t calibration_stage = 255;
     random_stream random(seed, 0, calibration_stage, static_cast<std::uint32_t>(tspc(id)));
     const auto draw = [&random](double centre, double spread) { return std::max(centre + spread * random.normal(), 0.2 * centre); };
@@ -34,9 +29,9 @@ struct drawn_calibration {
 
 /// The same calibration for every channel.
 struct uniform_calibration {
-  channel_calibration value{};
+  adc_line value{10.0, 28.0};
 
-  [[nodiscard]] channel_calibration operator()(const channel_id&) const { return value; }
+  [[nodiscard]] adc_line operator()(const channel_id&) const { return value; }
 };
 
 /// What the ADC makes of a channel: counts, and the light that they mean.
@@ -52,12 +47,12 @@ struct adc_response {
 
   /// Reading of `photo_electrons` > 0: rounded down, smeared, turned into counts, rounded down, limited to 0 .. largest_count, and back with the same calibration.
   /// Less than one photo-electron is none and gives npe = 0 exactly.
-  [[nodiscard]] adc_reading read(double photo_electrons, const channel_calibration& calibration, random_stream& random) const {
+  [[nodiscard]] adc_reading read(double photo_electrons, const adc_line& calibration, random_stream& random) const {
     const double whole = std::floor(photo_electrons);
     if (!(whole > 0.0)) return {static_cast<int>(calibration.pedestal), 0.0};
     const double smeared = whole + resolution * random.normal();
     const double counts = std::clamp(std::floor(smeared * calibration.gain + calibration.pedestal), 0.0, static_cast<double>(largest_count));
-    return {static_cast<int>(counts), (counts - calibration.pedestal) / calibration.gain};
+    return {static_cast<int>(counts), calibration.npe(static_cast<int>(counts))};
   }
 };
 

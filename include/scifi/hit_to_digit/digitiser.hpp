@@ -7,33 +7,25 @@
 #include <vector>
 
 #include <scifi/core/random.hpp>
-#include <scifi/event/digit.hpp>
 #include <scifi/event/hit.hpp>
+#include <scifi/event/raw_digit.hpp>
 #include <scifi/geometry/tracker.hpp>
 #include <scifi/hit_to_digit/adc.hpp>
+#include <scifi/hit_to_digit/dead_channels.hpp>
 #include <scifi/hit_to_digit/light_yield.hpp>
 #include <scifi/hit_to_digit/noise.hpp>
 
 namespace scifi {
 
-/// A digit as the read-out delivers it: with its ADC counts.
-struct raw_digit {
-  channel_id id;
-  int adc = 0;
-  double npe = 0.0;
-
-  /// What the reconstruction sees of it.
-  [[nodiscard]] digit seen() const { return {id, npe}; }
-};
-
-/// From the hits of one tracker to its digits: light, noise, ADC, threshold. Each step can be replaced.
-/// Light(edep) by `photo_electrons`, Noise by `for_each`, Adc by `read`, Calibration is called with a channel_id.
-template <class Light = light_yield, class Noise = thermal_noise, class Adc = adc_response, class Calibration = drawn_calibration>
+/// From the hits of one tracker to its digits: light, noise, dead channels, ADC, threshold. Each step can be replaced.
+/// Light(edep) by `photo_electrons`, Noise by `for_each`, Adc by `read`, Calibration is called with a channel_id, Dead is asked by `contains`.
+template <class Light = light_yield, class Noise = thermal_noise, class Adc = adc_response, class Calibration = drawn_calibration, class Dead = dead_channels>
 struct digitiser {
   Light light{};
   Noise noise{};
   Adc adc{};
   Calibration calibration{};
+  Dead dead{};
   double threshold = 2.0;  ///< digits below it are not kept, photo-electrons
 
   /// Replaces `out` by the digits of tracker `t`, in order of their channels; hits of other trackers are ignored.
@@ -55,6 +47,7 @@ struct digitiser {
       const channel_id id = out[i].id;
       double photo_electrons = 0.0;
       for (; i < out.size() && out[i].id == id; ++i) photo_electrons += out[i].npe;
+      if (dead.contains(id)) continue;
       const adc_reading reading = adc.read(photo_electrons, calibration(id), random);
       if (reading.npe >= threshold) out[kept++] = {id, reading.counts, reading.npe};
     }

@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-#include <scifi/event/digit.hpp>
+#include <scifi/event/raw_digit.hpp>
 #include <scifi/io/fixed_point.hpp>
 
 namespace scifi {
@@ -13,10 +13,10 @@ namespace scifi {
 inline constexpr std::string_view digit_columns = "event,tracker,station,plane,channel,adc,npe\n";
 
 /// Appends the row of a digit under `digit_columns`; light in photo-electrons to three decimals.
-inline void append_digit(std::string& out, long event_number, const digit& d, int adc) {
+inline void append_digit(std::string& out, long event_number, const raw_digit& d) {
   constexpr int npe_decimals = 3;  // an ADC of MICE has ten counts a photo-electron
   append_integer(out, event_number);
-  for (const int field : {d.id.tracker, d.id.station, d.id.plane, d.id.channel, adc}) {
+  for (const int field : {d.id.tracker, d.id.station, d.id.plane, d.id.channel, d.adc}) {
     out += ',';
     append_integer(out, field);
   }

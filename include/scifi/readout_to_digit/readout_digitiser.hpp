@@ -7,19 +7,13 @@
 #include <utility>
 #include <vector>
 
-#include <scifi/event/digit.hpp>
+#include <scifi/event/raw_digit.hpp>
 #include <scifi/readout_to_digit/bad_channels.hpp>
 #include <scifi/readout_to_digit/cabling_map.hpp>
 #include <scifi/readout_to_digit/calibration.hpp>
 #include <scifi/readout_to_digit/readout.hpp>
 
 namespace scifi {
-
-/// A digit with the counts that it was made of.
-struct counted_digit {
-  digit light;
-  int adc = 0;
-};
 
 /// What became of raw counts; the first reason that applies counts, in this order.
 struct readout_tally {
@@ -50,7 +44,7 @@ class readout_digitiser {
 
   /// Replaces `out` by the digits in order of their channels and tells what became of the counts. A read-out channel is given once an
   /// event. The memory of `out` is reused.
-  readout_tally operator()(std::span<const raw_count> counts, std::vector<counted_digit>& out) const {
+  readout_tally operator()(std::span<const raw_count> counts, std::vector<raw_digit>& out) const {
     readout_tally tally;
     out.clear();
     for (const raw_count& raw : counts) {
@@ -74,9 +68,9 @@ class readout_digitiser {
         continue;
       }
       ++tally.digits;
-      out.push_back({{*id, npe}, raw.adc});
+      out.push_back({*id, raw.adc, npe});
     }
-    std::sort(out.begin(), out.end(), [](const counted_digit& a, const counted_digit& b) { return a.light.id < b.light.id; });
+    std::sort(out.begin(), out.end(), [](const raw_digit& a, const raw_digit& b) { return a.id < b.id; });
     return tally;
   }
 

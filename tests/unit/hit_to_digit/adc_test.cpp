@@ -11,7 +11,7 @@ TEST_CASE("an ADC without smearing rounds photo-electrons and counts down", "[hi
   random_stream random(1, 0, 0);
   adc_response adc;
   adc.resolution = 0.0;
-  const channel_calibration c{9.78, 23.47};
+  const adc_line c{9.78, 23.47};
   const adc_reading r = adc.read(7.9, c, random);  // 7 pe: 7 * 9.78 + 23.47 = 91.93
   CHECK(r.counts == 91);
   CHECK(r.npe == Approx((91.0 - 23.47) / 9.78));
@@ -58,7 +58,7 @@ TEST_CASE("a drawn calibration belongs to seed and channel and has its mean and 
   int n = 0;
   for (int station = 1; station <= 5; ++station)
     for (int channel = 0; channel < 214; ++channel) {
-      const channel_calibration c = calibration({1, station, 0, channel});
+      const adc_line c = calibration({1, station, 0, channel});
       CHECK(c.gain == calibration({1, station, 0, channel}).gain);
       gain += c.gain;
       square += c.gain * c.gain;

@@ -117,3 +117,20 @@ TEST_CASE("the same stream gives the same digits", "[hit_to_digit]") {
     CHECK(first[i].npe == second[i].npe);
   }
 }
+
+TEST_CASE("a dead channel has no digit, neither of light nor of noise, and leaves the others alone", "[hit_to_digit]") {
+  const std::vector<hit> hits{deposit(1, 0, 57, 0.06), deposit(1, 0, 58, 0.06)};
+  auto d = plain();
+  d.dead = dead_channels({{mice::downstream, 1, 0, 57}});
+  random_stream random(4, 0, 0);
+  std::vector<raw_digit> out;
+  d(tkd, hits, random, out);
+  REQUIRE(out.size() == 1);
+  CHECK(out[0].id.channel == 58);
+  CHECK(out[0].npe == Approx(10.0));
+  d.noise.rate = 0.999;  // everywhere
+  d.threshold = 0.5;
+  d(tkd, hits, random, out);
+  CHECK(out.size() > 2500);
+  CHECK(std::none_of(out.begin(), out.end(), [](const raw_digit& r) { return r.id == channel_id{mice::downstream, 1, 0, 57}; }));
+}

@@ -14,15 +14,15 @@ using scifi::channel_id;
 
 TEST_CASE("a digit is a row", "[io]") {
   std::string out;
-  append_digit(out, 12345678901, {{1, 5, 2, 211}, 7.69602}, 100);
+  append_digit(out, 12345678901, {{1, 5, 2, 211}, 100, 7.69602});
   CHECK(out == "12345678901,1,5,2,211,100,7.696\n");
 }
 
 TEST_CASE("digits are read back as they were written, to three decimals", "[io]") {
   std::string text(scifi::digit_columns);
-  append_digit(text, 3, {{0, 1, 0, 0}, 2.0005}, 46);
-  append_digit(text, 3, {{1, 5, 1, 213}, 23.9374}, 255);
-  append_digit(text, 7, {{1, 5, 1, 213}, 0.0}, 28);
+  append_digit(text, 3, {{0, 1, 0, 0}, 46, 2.0005});
+  append_digit(text, 3, {{1, 5, 1, 213}, 255, 23.9374});
+  append_digit(text, 7, {{1, 5, 1, 213}, 28, 0.0});
   const scifi::test::temporary_folder folder;
   scifi::digit_reader reader(folder.file("a.csv", text), scifi::mice::trackers());
   scifi::event e;

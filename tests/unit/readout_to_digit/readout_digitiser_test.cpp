@@ -18,8 +18,8 @@ using scifi::bad_channels;
 using scifi::cabling_map;
 using scifi::cabling_result;
 using scifi::channel_id;
-using scifi::counted_digit;
 using scifi::raw_count;
+using scifi::raw_digit;
 using scifi::readout_calibration;
 using scifi::readout_digitiser;
 using scifi::readout_tally;
@@ -53,16 +53,16 @@ TEST_CASE("counts become digits in order of their channels", "[readout_to_digit]
   REQUIRE(calibration.set({0, 1, 9}, {10.0, 30.0}));
   const readout_digitiser digitise(three_cables(), calibration, bad_channels{});
   const std::vector<raw_count> counts = {{{0, 1, 9}, 255}, {{0, 1, 10}, 104}};
-  std::vector<counted_digit> digits(5);
+  std::vector<raw_digit> digits(5);
   const readout_tally tally = digitise(counts, digits);
   CHECK(tally.digits == 2);
   CHECK(tally.counts() == 2);
   REQUIRE(digits.size() == 2);
-  CHECK(digits[0].light.id == channel_id{0, 1, 0, 0});
-  CHECK(digits[0].light.npe == 10.0);  // (104 - 24) / 8
+  CHECK(digits[0].id == channel_id{0, 1, 0, 0});
+  CHECK(digits[0].npe == 10.0);  // (104 - 24) / 8
   CHECK(digits[0].adc == 104);
-  CHECK(digits[1].light.id == channel_id{0, 1, 0, 1});
-  CHECK(digits[1].light.npe == 22.5);  // (255 - 30) / 10
+  CHECK(digits[1].id == channel_id{0, 1, 0, 1});
+  CHECK(digits[1].npe == 22.5);  // (255 - 30) / 10
 }
 
 TEST_CASE("what is left out is counted by its first reason", "[readout_to_digit]") {
@@ -74,7 +74,7 @@ TEST_CASE("what is left out is counted by its first reason", "[readout_to_digit]
   REQUIRE(bad.mark({0, 1, 9}));
   REQUIRE(bad.mark({3, 3, 3}));
   const readout_digitiser digitise(three_cables(), calibration, bad);
-  std::vector<counted_digit> digits;
+  std::vector<raw_digit> digits;
   const std::vector<raw_count> counts = {{{3, 3, 3}, 200}, {{99, 0, 0}, 200}, {{0, 1, 9}, 200}, {{0, 1, 8}, 200}, {{0, 1, 10}, 39}};
   readout_tally tally = digitise(counts, digits);
   CHECK(digits.empty());
@@ -109,20 +109,19 @@ TEST_CASE("simulated digits come back through the read-out with the same counts 
   REQUIRE(cabling.cables().size() == 6400);
   readout_calibration calibration;
   const scifi::drawn_calibration drawn{3};
-  for (const auto& [id, cable] : cabling.cables()) REQUIRE(calibration.set(cable, {drawn(id).gain, drawn(id).pedestal}));
+  for (const auto& [id, cable] : cabling.cables()) REQUIRE(calibration.set(cable, drawn(id)));
   const readout_digitiser digitise(cabling, calibration, bad_channels{});
 
   scifi::digitiser<> simulate;
   simulate.calibration = drawn;
   simulate.noise.rate = 0.95;  // three photo-electrons a channel
-  std::vector<scifi::raw_digit> simulated;
-  std::vector<counted_digit> back;
+  std::vector<raw_digit> simulated, back;
   std::size_t digits = 0;
   for (const scifi::tracker& t : trackers.trackers) {
     scifi::random_stream random(7, 0, 0, static_cast<std::uint32_t>(t.id));
     simulate(t, {}, random, simulated);
     std::vector<raw_count> counts;
-    for (const scifi::raw_digit& d : simulated) {
+    for (const raw_digit& d : simulated) {
       const auto raw = digitise.raw(d.seen());
       REQUIRE(raw.has_value());
       CHECK(raw->adc == d.adc);
@@ -132,9 +131,9 @@ TEST_CASE("simulated digits come back through the read-out with the same counts 
     CHECK(tally.digits == tally.counts());
     REQUIRE(back.size() == simulated.size());
     for (std::size_t i = 0; i < back.size(); ++i) {
-      CHECK(back[i].light.id == simulated[i].id);
+      CHECK(back[i].id == simulated[i].id);
       CHECK(back[i].adc == simulated[i].adc);
-      CHECK(back[i].light.npe == simulated[i].npe);  // the same formula of the same numbers
+      CHECK(back[i].npe == simulated[i].npe);  // the same formula of the same numbers
     }
     digits += back.size();
   }
@@ -146,17 +145,17 @@ TEST_CASE("light that is no whole count comes back to half a count", "[readout_t
   const cabling_map cabling = all_of(trackers);
   readout_calibration calibration;
   const scifi::drawn_calibration drawn{4};
-  for (const auto& [id, cable] : cabling.cables()) REQUIRE(calibration.set(cable, {drawn(id).gain, drawn(id).pedestal}));
+  for (const auto& [id, cable] : cabling.cables()) REQUIRE(calibration.set(cable, drawn(id)));
   const readout_digitiser digitise(cabling, calibration, bad_channels{}, 0.0);
   scifi::random_stream random(8, 0, 0, 0);
-  std::vector<counted_digit> back;
+  std::vector<raw_digit> back;
   for (const auto& [id, cable] : cabling.cables()) {
     const double npe = 2.0 + 15.0 * random.uniform();
     const auto raw = digitise.raw({id, npe});
     REQUIRE(raw.has_value());
     digitise(std::vector<raw_count>{*raw}, back);
     REQUIRE(back.size() == 1);
-    CHECK(back[0].light.id == id);
-    CHECK(std::abs(back[0].light.npe - npe) <= 0.5 / drawn(id).gain * (1.0 + 1.0e-12));
+    CHECK(back[0].id == id);
+    CHECK(std::abs(back[0].npe - npe) <= 0.5 / drawn(id).gain * (1.0 + 1.0e-12));
   }
 }
