@@ -22,6 +22,7 @@
 #include <scifi/hit_to_digit/digitiser.hpp>
 #include <scifi/io/any_geometry.hpp>
 #include <scifi/io/atomic_file.hpp>
+#include <scifi/io/channel_list_reader.hpp>
 #include <scifi/particle_to_hit/transport.hpp>
 
 #include "conditions/stored_conditions.hpp"
@@ -54,6 +55,8 @@ struct options {
   bool no_decays = false;
   int tracks_per_event = 1;
   double noise_rate = 0.015;
+  double dead_share = 0.0;
+  std::string dead_channels;
   std::string geometry;
   std::string scattering = "coulomb";
   std::string energy_loss = "collisions";
@@ -76,7 +79,7 @@ follow make_transport(const scifi::tracker& t, const scifi::transport_settings& 
   return with_scattering(t, settings, o.energy_loss, scifi::gaussian_scattering<scifi::no_scattering>{});
 }
 
-simulate::beam beam_of(const options& o) {
+simulate::beam beam_of(const options& o, const scifi::detector& where) {
   simulate::beam out;
   const auto species = scifi::particle_from_name(o.particle);
   if (!species) throw std::invalid_argument("--particle: '" + o.particle + "' is not known; try mu+, mu-, pi+, pi-, e+, e- or p");
@@ -84,7 +87,7 @@ simulate::beam beam_of(const options& o) {
   out.field = o.field * scifi::units::tesla;
   if (!o.particles.empty()) {
     out.from = simulate::beam::kind::file;
-    out.file = scifi::read_particles(o.particles);
+    out.file = scifi::read_particles(o.particles, where);
   } else if (o.beam == "gaussian") {
     out.from = simulate::beam::kind::gaussian;
     out.gaussian = {*species, o.emittance, o.beta, o.alpha, o.canonical, o.momentum[0], o.momentum[1]};
@@ -105,23 +108,24 @@ void run(options& o) {
   const auto start = std::chrono::steady_clock::now();
   o.stored.fill_in(o.geometry, scifi::condition_kind::geometry);
   scifi::detector detector = scifi::mice::trackers();
+  scifi::transport_settings settings;
   if (!o.geometry.empty()) {
     scifi::any_geometry geometry = scifi::read_any_geometry(o.geometry);
     for (const std::string& note : geometry.notes) fmt::print(stderr, "note: {}\n", note);
     if (!o.given_field)
       if (const auto field = geometry.common_field()) o.field = *field / scifi::units::tesla;
     detector = std::move(geometry.detector);
+    settings.doublet = geometry.fibre;
   }
   o.field = o.given_field.value_or(o.field);
 
-  const simulate::beam beam = beam_of(o);
+  const simulate::beam beam = beam_of(o, detector);
   long events = o.events;
   if (beam.from == simulate::beam::kind::file) {
     const auto in_file = static_cast<long>(beam.file.size());
     events = o.events_given ? std::min(o.events, in_file) : in_file;
   }
 
-  scifi::transport_settings settings;
   settings.field = o.field * scifi::units::tesla;
   settings.decays = !o.no_decays;
   std::vector<simulate::line> lines;
@@ -132,6 +136,8 @@ void run(options& o) {
   scifi::digitiser<> digitise;
   digitise.noise.rate = o.noise_rate;
   digitise.calibration.seed = o.seed;
+  digitise.dead = o.dead_channels.empty() ? scifi::drawn_dead_channels(detector, o.dead_share, o.seed)
+                                          : scifi::dead_channels(scifi::read_channel_list(o.dead_channels, detector));
 
   std::deque<scifi::atomic_file> files;
   const std::size_t written = o.hits ? simulate::tables : simulate::hits;
@@ -162,6 +168,7 @@ void run(options& o) {
   fmt::print("particles           {:>10}   {} of them through all planes\n", sum.particles, sum.crossed);
   fmt::print("plane crossings     {:>10}\n", sum.crossings);
   fmt::print("hits in fibre cores {:>10}\n", sum.hits);
+  if (digitise.dead.size() > 0) fmt::print("dead channels       {:>10}\n", digitise.dead.size());
   fmt::print("digits              {:>10}   {:.2f} in a tracker and event\n", sum.digits, static_cast<double>(sum.digits) * per_event);
   fmt::print("time                {:>10.2f} s, {:.0f} events/s\n", seconds, static_cast<double>(events) / seconds);
   std::string names;
@@ -192,6 +199,8 @@ int main(int argc, char** argv) {
   app.add_option("--particle", o.particle, "mu+, mu-, pi+, pi-, e+, e-, p")->capture_default_str();
   app.add_option("--tracks-per-event", o.tracks_per_event, "particles in each simulated tracker of an event")->check(CLI::Range(0, 100000))->capture_default_str();
   app.add_option("--noise-rate", o.noise_rate, "chance of thermal photo-electrons, per channel and event")->check(CLI::Range(0.0, 0.999))->capture_default_str();
+  CLI::Option* const share = app.add_option("--dead-share", o.dead_share, "chance of a channel to be dead, drawn with the seed")->check(CLI::Range(0.0, 1.0))->capture_default_str();
+  app.add_option("--dead-channels", o.dead_channels, "dead channels from a table instead: tracker,station,plane,channel")->excludes(share);
   app.add_option("--geometry", o.geometry, "geometry in JSON (.json) or MiceModules (.dat); the MICE trackers unless given");
   o.stored.offer(app);
   app.add_option("--scattering", o.scattering, "coulomb (with tails), highland (Gaussian) or none")->check(CLI::IsMember({"coulomb", "highland", "none"}))->capture_default_str();

@@ -32,6 +32,8 @@ struct run {
   double largest_pt = 90.0;
   double radius = 110.0;
   std::uint64_t seed = 1;
+  double noise_rate = 0.015;
+  double dead_share = 0.0;
 };
 
 enum stage : std::uint32_t { gun, flight, digitisation };
@@ -49,7 +51,9 @@ test::track_score simulate_and_score(const run& r) {
   transport_settings settings;
   settings.field = r.field;
   const transport fly(t, settings, coulomb_scattering{}, collision_loss{});
-  const digitiser<> digitise;
+  digitiser<> digitise;
+  digitise.noise.rate = r.noise_rate;
+  digitise.dead = drawn_dead_channels(where, r.dead_share, r.seed);
   reconstruction_options options;
   options.field = r.field;
   options.hypothesis = r.species;
@@ -137,4 +141,25 @@ TEST_CASE("three muons at once are found and told apart", "[integration]") {
   sampled.at_least(s.all, 0.95);
   sampled.ghosts_at_most(s.ghosts, s.all.expected, 0.05);
   sampled.at_least(s.charge_above_5, 0.995);
+}
+
+TEST_CASE("with three times the noise, or one channel in fifty dead, efficiency and ghosts stay within one per cent", "[integration]") {
+  for (const int tracker : {mice::upstream, mice::downstream})
+    for (const double field : {3.0 * units::tesla, 0.0}) {
+      run as_it_is{.tracker = tracker, .field = field, .seed = 6};
+      if (field == 0.0) as_it_is.largest_pt = 20.0, as_it_is.radius = 40.0;
+      run noisy = as_it_is, dead = as_it_is;
+      noisy.noise_rate *= 3.0;
+      dead.dead_share = 0.02;
+      const test::track_score reference = simulate_and_score(as_it_is);
+      REQUIRE(reference.all.expected > as_it_is.events / 2);
+      for (const run& r : {noisy, dead}) {
+        // The same particles on the same ways: what differs is not the sample.
+        const test::track_score s = simulate_and_score(r);
+        CAPTURE(tracker, field, r.noise_rate, r.dead_share, s.all.value(), reference.all.value(), s.ghosts_per_event(), reference.ghosts_per_event());
+        REQUIRE(s.all.expected == reference.all.expected);
+        CHECK(std::abs(s.all.value() - reference.all.value()) < 0.01);
+        CHECK(std::abs(s.ghosts_per_event() - reference.ghosts_per_event()) < 0.01);
+      }
+    }
 }

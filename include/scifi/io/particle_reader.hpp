@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include <scifi/geometry/tracker.hpp>
 #include <scifi/io/csv.hpp>
 #include <scifi/particle_to_hit/moving_particle.hpp>
 
@@ -25,8 +26,8 @@ struct beam_event {
 
 /// Reads a beam from a table, plain or gzip, such as another simulation writes: a header line, then the columns event, tracker, pdg, x_mm, y_mm, z_mm,
 /// t_ns, px_MeV, py_MeV, pz_MeV, found by name; others are ignored. The frame is the tracker's. Particles of an event stand together and event numbers grow.
-/// Throws input_error, with file, line and column, for whatever does not fit, an unknown pdg and pz = 0 among it.
-[[nodiscard]] inline std::vector<beam_event> read_particles(const std::filesystem::path& path) {
+/// Throws input_error, with file, line and column, for whatever does not fit, an unknown tracker or pdg and pz = 0 among it.
+[[nodiscard]] inline std::vector<beam_event> read_particles(const std::filesystem::path& path, const detector& d) {
   enum columns : std::size_t { event_column, tracker_column, pdg_column, x, y, z, t, px, py, pz };
   csv_reader rows(path, {"event", "tracker", "pdg", "x_mm", "y_mm", "z_mm", "t_ns", "px_MeV", "py_MeV", "pz_MeV"});
   std::vector<beam_event> out;
@@ -41,6 +42,7 @@ struct beam_event {
     if (!hypothesis) rows.fail("pdg", std::to_string(pdg) + " is not known; try 13, -13, 211, -211, 11, -11 or 2212");
     beam_particle p;
     p.tracker = rows.whole_number<int>(tracker_column);
+    if (d.find(p.tracker) == nullptr) rows.fail("tracker", "there is no tracker " + std::to_string(p.tracker));
     p.start.hypothesis = *hypothesis;
     p.start.position = {rows.number(x), rows.number(y), rows.number(z)};
     p.start.momentum = {rows.number(px), rows.number(py), rows.number(pz)};
