@@ -14,6 +14,7 @@ import csv
 import gzip
 import math
 import pathlib
+import re
 import sys
 
 import matplotlib
@@ -22,6 +23,9 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402  (the backend is chosen first)
 import numpy as np  # noqa: E402
 from matplotlib.ticker import LogLocator, NullFormatter, ScalarFormatter  # noqa: E402
+
+plt.rcParams.update({"xtick.direction": "in", "ytick.direction": "in", "xtick.top": True, "ytick.right": True,
+                     "xtick.minor.visible": True, "ytick.minor.visible": True, "legend.frameon": False})
 
 TESLA = 0.299792458  # (MeV/c)/(e mm)
 FIDUCIAL_RADIUS = 150.0  # mm
@@ -88,6 +92,19 @@ def match(truths, tracks):
     return [(truth, partner.get(i)) for i, truth in enumerate(truths)]
 
 
+def count_ghosts(truth_path, found):
+    """Tracks with no true particle within the matching radius at the reference surface, expected or not; and the number of events."""
+    at_reference, events, ghosts = collections.defaultdict(list), set(), collections.Counter()
+    for row in rows(truth_path):
+        events.add(row["event"])
+        if (row["station"], row["plane"]) == ("1", "0"):
+            at_reference[int(row["event"]), int(row["tracker"])].append(state(row))
+    for key, tracks in found.items():
+        pairs = match(at_reference[key], tracks)
+        ghosts[key[1]] += len(tracks) - sum(track is not None for _, track in pairs)
+    return ghosts, max(1, len(events))
+
+
 def residual(pair, name):
     truth, track = pair
     if name == "pt":
@@ -144,6 +161,26 @@ def print_table(by_tracker):
         print(f"  chi2/ndf mean {np.mean(reduced):.3f}, median {np.median(reduced):.3f}")
 
 
+def print_summary(by_tracker, ghosts, events, logs):
+    """One row a figure, one column a tracker; times are those the programs report, for both trackers of an event together."""
+    def row(name, value_of, form):
+        print(f"  {name:44s}" + "".join(f"{value_of(tracker, pairs):>14{form}}" for tracker, pairs in by_tracker.items()))
+
+    good = {tracker: [p for p in pairs if p[1] is not None] for tracker, pairs in by_tracker.items()}
+    print("\nSummary" + " " * 39 + "".join(f"{TRACKERS[tracker][0].split('(')[1].rstrip(')'):>14s}" for tracker in by_tracker))
+    row("tracks expected", lambda t, pairs: len(pairs), "d")
+    row("efficiency", lambda t, pairs: efficiency(pairs)[0], ".4f")
+    row("ghosts per event", lambda t, pairs: ghosts[t] / events, ".4f")
+    for name, unit in (("x", "mm"), ("pt", "MeV/c"), ("pz", "MeV/c")):
+        row(f"spread of {name} [{unit}]", lambda t, pairs, name=name: spread([residual(p, name) for p in good[t]]), ".3f")
+    for name in PULLS:
+        row(f"spread of the pull of {name}", lambda t, pairs, name=name: spread([pull(p, name) for p in good[t]]), ".3f")
+    row("chi2 per degree of freedom", lambda t, pairs: np.mean([p[1]["chi2"] / p[1]["ndf"] for p in good[t] if p[1]["ndf"] > 0]), ".3f")
+    for log in logs:
+        for name, value in re.findall(r"(flight|digitisation|reconstruction) ([0-9.]+) us", pathlib.Path(log).read_text(encoding="utf-8")):
+            print(f"  time per event and thread: {name + ' [us]':17s}{float(value):14.1f}   both trackers")
+
+
 def panels(title, columns):
     figure, axes = plt.subplots(1, columns, figsize=(3.6 * columns, 3.4), layout="constrained", squeeze=False)
     figure.suptitle(title)
@@ -152,7 +189,7 @@ def panels(title, columns):
 
 def save(figure, folder, name):
     path = folder / f"{name}.png"
-    figure.savefig(path, dpi=130)
+    figure.savefig(path, dpi=160)
     plt.close(figure)
     print(f"drew {path}")
 
@@ -167,8 +204,9 @@ def against_pt(axis, pairs_of, value_of, label):
                       yerr=np.array([p[1:] for p in points]).T, fmt=marker, color=colour, label=name, markersize=5, linewidth=1)
     axis.set_xlabel("true $p_T$ at the reference surface [MeV/$c$]")
     axis.set_ylabel(label)
-    axis.grid(alpha=0.3)
-    axis.legend(fontsize="small")
+    low, high = axis.get_ylim()
+    axis.set_ylim(low - 0.2 * (high - low), high)  # room for the legend
+    axis.legend(fontsize="small", loc="lower left")
 
 
 def spread_with_error(pairs, name):
@@ -205,6 +243,8 @@ def draw(by_tracker, folder):
         against_pt(axis, by_tracker, lambda pairs, name=name: spread_with_error(pairs, name),
                    f"spread of {QUANTITY[name][0]} [MeV/$c$]")
     axes[1].set_yscale("log")
+    axes[1].set_ylim(bottom=1.0)
+    axes[1].legend(fontsize="small", loc="upper right")
     axes[1].yaxis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
     axes[1].yaxis.set_major_formatter(ScalarFormatter())
     axes[1].yaxis.set_minor_formatter(NullFormatter())
@@ -279,7 +319,6 @@ def draw_event(truth_path, points_path, field, folder):
                     axis.plot(drawn[across], drawn[up], "-", color=colour, linewidth=1.2)
             axis.set_xlabel(f"${label_across}$ [mm]")
             axis.set_ylabel(f"${label_up}$ [mm]")
-            axis.grid(alpha=0.3)
         line[0].set_title(name)
         line[2].set_aspect("equal", adjustable="datalim")
     save(figure, folder, "event")
@@ -292,6 +331,7 @@ def main():
     parser.add_argument("folder", type=pathlib.Path, help="where the pictures go")
     parser.add_argument("--points", help="CSV of fitted track points, for the picture of an event")
     parser.add_argument("--field", type=float, default=3.0, help="tesla, for the picture of an event")
+    parser.add_argument("--logs", nargs="*", default=[], help="what the programs printed, for the times in the summary")
     parser.add_argument("--least-efficiency", type=float, default=0.0, help="fail below this share of found tracks")
     options = parser.parse_args()
 
@@ -299,6 +339,7 @@ def main():
     by_tracker = collections.defaultdict(list)
     for key, truths in sorted(expected.items()):
         by_tracker[key[1]] += match(truths, found.get(key, []))
+    ghosts, events = count_ghosts(options.truth, found)
     if not by_tracker:
         print(f"{options.truth}: no particle crosses four stations", file=sys.stderr)
         return 1
@@ -313,6 +354,7 @@ def main():
     draw(by_tracker, options.folder)
     if options.points:
         draw_event(options.truth, options.points, options.field * TESLA, options.folder)
+    print_summary(by_tracker, ghosts, events, options.logs)
     return 0
 
 

@@ -16,12 +16,12 @@
 #include <CLI/CLI.hpp>
 
 #include <scifi/geometry/mice.hpp>
+#include <scifi/io/any_geometry.hpp>
 #include <scifi/io/atomic_file.hpp>
 #include <scifi/io/bad_channels_text.hpp>
 #include <scifi/io/cabling_text.hpp>
 #include <scifi/io/calibration_json.hpp>
 #include <scifi/io/digit_writer.hpp>
-#include <scifi/io/geometry_json.hpp>
 #include <scifi/io/mice_json_writer.hpp>
 #include <scifi/io/raw_reader.hpp>
 #include <scifi/readout_to_digit/readout_digitiser.hpp>
@@ -132,7 +132,7 @@ void run(options& o) {
   o.stored.fill_in(o.calibration, scifi::condition_kind::calibration);
   o.stored.fill_in(o.bad_channels, scifi::condition_kind::bad_channels);
   check(o);
-  const scifi::detector detector = o.geometry.empty() ? scifi::mice::trackers() : scifi::read_geometry(o.geometry);
+  const scifi::detector detector = o.geometry.empty() ? scifi::mice::trackers() : scifi::read_any_geometry(o.geometry).detector;
   const scifi::cabling_map cabling = scifi::read_cabling(o.cabling, detector);
   const scifi::readout_calibration calibration = scifi::read_calibration(o.calibration);
   const scifi::bad_channels bad = scifi::read_bad_channels(o.bad_channels);
@@ -164,7 +164,7 @@ int main(int argc, char** argv) {
   app.add_option("--calibration", o.calibration, "calibration, JSON: objects with bank (through all boards), channel, adc_pedestal, adc_gain");
   app.add_option("--bad-channels", o.bad_channels, "bad channels, text: bank (through all boards) and channel a line; may be empty");
   o.stored.offer(app);
-  app.add_option("--geometry", o.geometry, "geometry in JSON that goes with the cabling; the MICE trackers unless given");
+  app.add_option("--geometry", o.geometry, "geometry in JSON or MiceModules that goes with the cabling; the MICE trackers unless given");
   app.add_option("--min-npe", o.min_npe, "least light of a digit, photo-electrons")->capture_default_str();
   app.add_option("-o,--output", o.output, "digits: MICE JSON, one event a spill, where the name ends in .json, else CSV")->capture_default_str();
   app.set_version_flag("--version", std::string(scifi::version));

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MPL-2.0
 // scifi-reconstruct: tracks in the digits of scintillating-fibre trackers, from CSV or MICE JSON to CSV.
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <exception>
@@ -85,6 +86,8 @@ void print_summary(const options& o, const totals& sum, const scifi::particle& h
       fmt::format("   combinations limited {}, fit failed {}", sum.combinations_limited, sum.fit_failed));
   fmt::print(out, "{:<16}{:>12.3f} s, {:.0f} events/s, {} thread{}\n", "time", seconds, static_cast<double>(sum.events) / seconds, threads,
              threads == 1 ? "" : "s");
+  fmt::print(out, "{:<16}reconstruction {:.1f} us, on one thread\n", "time per event",
+             std::chrono::duration<double, std::micro>(sum.reconstruction).count() / static_cast<double>(std::max(sum.events, 1L)));
   fmt::print(out, "{:<16}{}{}\n", "written", o.output, o.track_points.empty() ? "" : ", " + o.track_points);
 }
 

@@ -171,6 +171,8 @@ void run(options& o) {
   if (digitise.dead.size() > 0) fmt::print("dead channels       {:>10}\n", digitise.dead.size());
   fmt::print("digits              {:>10}   {:.2f} in a tracker and event\n", sum.digits, static_cast<double>(sum.digits) * per_event);
   fmt::print("time                {:>10.2f} s, {:.0f} events/s\n", seconds, static_cast<double>(events) / seconds);
+  const auto microseconds = [events](std::chrono::steady_clock::duration d) { return std::chrono::duration<double, std::micro>(d).count() / static_cast<double>(std::max(events, 1L)); };
+  fmt::print("time per event      flight {:.1f} us, digitisation {:.1f} us, on one thread\n", microseconds(sum.flight), microseconds(sum.digitisation));
   std::string names;
   for (const scifi::atomic_file& file : files) names += (names.empty() ? "" : ", ") + file.name();
   fmt::print("written             {}\n", names);

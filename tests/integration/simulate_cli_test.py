@@ -125,16 +125,41 @@ def check_no_noise_no_particles(folder):
     assert truth.decode().splitlines() == [",".join(TRUTH)]
 
 
+def check_dead_channels(folder):
+    options = ("--events", 300, "--seed", 8)
+    all_alive, truth = simulate(folder / "alive", *options)
+    channel = tuple("tracker station plane channel".split())
+    lit = {tuple(r[k] for k in channel) for r in rows(all_alive, DIGITS)}
+    table = folder / "dead.csv"
+    dead = sorted(lit)[::50]
+    table.write_text(",".join(channel) + "\n" + "".join(",".join(d) + "\n" for d in dead))
+    listed, same_truth = simulate(folder / "listed", *options, "--dead-channels", table)
+    assert truth == same_truth, "what the particles do has nothing to do with the read-out"
+    assert not {tuple(r[k] for k in channel) for r in rows(listed, DIGITS)} & set(dead)
+    drawn = run("--output", folder / "drawn", *options, "--dead-share", 0.05)
+    count = int(next(line for line in drawn.stdout.splitlines() if line.startswith("dead channels")).split()[2])
+    assert abs(count - 320) < 5 * math.sqrt(320 * 0.95), count
+    digits = len(rows((folder / "drawn_digits.csv").read_bytes(), DIGITS)) / len(rows(all_alive, DIGITS))
+    assert 0.92 < digits < 0.98, digits
+
+
 def check_refusals(folder):
+    (folder / "wrong.csv").write_text("tracker,station,plane,channel\n0,1,0,5\n0,1,0,214\n")
+    (folder / "beam_of_two.csv").write_text("event,tracker,pdg,x_mm,y_mm,z_mm,t_ns,px_MeV,py_MeV,pz_MeV\n0,2,13,0,0,0,0,0,0,200\n")
     for options, words in (
             (("--particle", "neutrino"), "'neutrino' is not known"),
             (("--pz", 300, 100), "pz"),
             (("--tracker", 2), "no tracker 2"),
             (("--events", 0), "--events"),
             (("--noise-rate", 1.5), "--noise-rate"),
+            (("--dead-share", -0.1), "--dead-share"),
+            (("--dead-channels", folder / "missing.csv"), "missing.csv"),
+            (("--dead-channels", folder / "wrong.csv"), "wrong.csv:3: channel: 214 is outside 0 .. 213"),
+            (("--dead-channels", folder / "wrong.csv", "--dead-share", 0.1), "--dead-share"),
             (("--scattering", "much"), "--scattering"),
             (("--beam", "gaussian", "--emittance", -1), "emittance"),
             (("--particles", folder / "missing.csv"), "missing.csv"),
+            (("--particles", folder / "beam_of_two.csv"), "beam_of_two.csv:2: tracker: there is no tracker 2"),
             (("--geometry", folder / "missing.json"), "missing.json"),
             (("--output", folder / "no" / "such" / "folder"), "folder_digits.csv")):
         prefix = folder / "refused"
@@ -151,7 +176,7 @@ def main():
         print(f"skipped: no {PROGRAM}")
         return SKIPPED
     with tempfile.TemporaryDirectory() as name:
-        for check in (check_threads, check_rows, check_history, check_beams, check_no_noise_no_particles, check_refusals):
+        for check in (check_threads, check_rows, check_history, check_beams, check_no_noise_no_particles, check_dead_channels, check_refusals):
             check(pathlib.Path(name))
             print("passed:", check.__name__)
     return 0

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <atomic>
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <exception>
@@ -23,6 +24,7 @@
 struct totals {
   long events = 0, digits = 0, clusters = 0, space_points = 0, candidates = 0, tracks = 0, failures = 0;
   long flagged = 0, combinations_limited = 0, fit_failed = 0;
+  std::chrono::steady_clock::duration reconstruction{};  ///< on one thread
 
   void count(const scifi::event& e) {
     ++events;
@@ -46,6 +48,7 @@ struct totals {
     flagged += more.flagged;
     combinations_limited += more.combinations_limited;
     fit_failed += more.fit_failed;
+    reconstruction += more.reconstruction;
   }
 };
 
@@ -104,7 +107,9 @@ template <class Reconstruction>
     b->sum = {};
     for (std::size_t i = 0; i < b->used; ++i) {
       scifi::event& e = b->events[i];
+      const auto start = std::chrono::steady_clock::now();
       reconstruct(e, buffers.local());
+      b->sum.reconstruction += std::chrono::steady_clock::now() - start;
       scifi::append_tracks(b->tracks, e);
       if (points_file) scifi::append_track_points(b->points, e);
       b->sum.count(e);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 #pragma once
 
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -25,12 +26,15 @@ struct line {
 
 struct totals {
   long particles = 0, crossed = 0, crossings = 0, hits = 0, digits = 0;
+  std::chrono::steady_clock::duration flight{}, digitisation{};  ///< on one thread
   void add(const totals& more) {
     particles += more.particles;
     crossed += more.crossed;
     crossings += more.crossings;
     hits += more.hits;
     digits += more.digits;
+    flight += more.flight;
+    digitisation += more.digitisation;
   }
 };
 
@@ -67,14 +71,18 @@ inline void make_event(const std::vector<line>& lines, const beam& from, const d
     const tracker& t = *lines[l].where;
     out.real.clear();
     out.real.last_particle = last_particle;
+    const auto start = std::chrono::steady_clock::now();
     for (const moving_particle& particle : out.beams[l]) {
       ++index;
       random_stream random(run.seed, event, stage::flight, static_cast<std::uint32_t>(index));
       out.sum.crossed += lines[l].fly(particle, index, random, out.real) == flight_end::crossed;
     }
+    const auto flown = std::chrono::steady_clock::now();
     last_particle = out.real.last_particle;
     random_stream for_digits(run.seed, event, stage::digitisation, static_cast<std::uint32_t>(t.id));
     digitise(t, out.real.hits, for_digits, out.made);
+    out.sum.flight += flown - start;
+    out.sum.digitisation += std::chrono::steady_clock::now() - flown;
     add_digits(number, out.made, out.written);
     add_crossings(number, out.real, out.written);
     if (run.history) add_history(number, t.id, out.real, out.made, out.written);
