@@ -43,6 +43,27 @@ double landau_above(double lambda) {
   return sum * h / constants::pi;
 }
 
+/// Probability that Vavilov's loss exceeds its mean by x largest transfers. The sum of collisions has the characteristic function
+/// exp kappa int_0^1 (exp(isu) - 1 - isu) (1 - beta^2 u) / u^2 du (Vavilov, Sov. Phys. JETP 5 (1957) 749), inverted as by Gil-Pelaez, Biometrika 38 (1951) 481.
+double vavilov_above(double x, double kappa, double beta_squared) {
+  const double end = 30.0 / kappa;  // the real part of the exponent falls as -kappa s pi/2, or faster: exp(-40)
+  constexpr int steps = 1000, cells = 1000;
+  const double h = end / steps;
+  double sum = 0.0;
+  for (int i = 0; i < steps; ++i) {
+    const double s = (i + 0.5) * h;
+    double real = 0.0, imaginary = 0.0;
+    for (int j = 0; j < cells; ++j) {
+      const double u = (j + 0.5) / cells;
+      const double weight = kappa * (1.0 - beta_squared * u) / (u * u * cells);
+      real += weight * (std::cos(s * u) - 1.0);
+      imaginary += weight * (std::sin(s * u) - s * u);
+    }
+    sum += std::exp(real) * std::sin(imaginary - s * x) / s;
+  }
+  return 0.5 + sum * h / constants::pi;
+}
+
 }  // namespace
 
 TEST_CASE("the integral used as the oracle gives Landau's published median", "[particle_to_hit]") {
@@ -74,6 +95,26 @@ TEST_CASE("thin layers follow Landau's distribution", "[particle_to_hit]") {
     CAPTURE(lambda, expected);
     // Five standard deviations; 2e-3 for the Gaussian sum of small transfers (skewness sqrt(0.1) / 2, smeared by the rest).
     CHECK(std::abs(above(sorted, mode + xi * (lambda - landau::mode)) - expected) < 5.0 * std::sqrt(expected * (1.0 - expected) / n) + 2e-3);
+  }
+}
+
+TEST_CASE("between, losses follow Vavilov's distribution, whatever kappa", "[particle_to_hit]") {
+  constexpr int n = 20000;
+  constexpr double p = 200.0;
+  const auto k = ionisation_kinematics_of(p, muon_plus);
+  const double xi_per_mm = landau_xi(k, muon_plus, materials::polystyrene, 1.0);
+  for (const double kappa : {0.05, 0.3, 2.0}) {
+    const double path = kappa * k.largest_transfer / xi_per_mm;
+    REQUIRE(vavilov_kappa(xi_per_mm * path, k) == Approx(kappa));
+    const std::vector<double> sorted = losses(p, muon_plus, materials::polystyrene, path, 1, n, 6);
+    const double mean = mean_energy_loss_rate(p, muon_plus, materials::polystyrene).value * path;
+    const double width = std::sqrt(kappa * (1.0 - 0.5 * k.beta_squared));  // standard deviation in units of the largest transfer
+    for (const double widths : {-1.0, -0.5, 0.0, 0.5, 1.0, 2.0, 3.0}) {
+      const double expected = vavilov_above(widths * width, kappa, k.beta_squared);
+      CAPTURE(kappa, widths, expected);
+      // Five standard deviations; 2e-3 for the Gaussian sum of small transfers, as above.
+      CHECK(std::abs(above(sorted, mean + widths * width * k.largest_transfer) - expected) < 5.0 * std::sqrt(expected * (1.0 - expected) / n) + 2e-3);
+    }
   }
 }
 
