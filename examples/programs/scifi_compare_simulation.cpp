@@ -14,8 +14,8 @@
 #include <fmt/format.h>
 
 #include <scifi/geometry/mice.hpp>
+#include <scifi/io/any_geometry.hpp>
 #include <scifi/io/csv.hpp>
-#include <scifi/io/geometry_json.hpp>
 #include <scifi/particle_to_hit/transport.hpp>
 
 #include "compare_simulation/quantities.hpp"
@@ -34,13 +34,32 @@ struct options {
 /// Events of a simulation by their number: what happened to their only particle.
 using events = std::map<long, scifi::truth>;
 
-events read(const options& o) {
+/// Stops at a row of another tracker, or of a plane that does not exist.
+void check_plane(const scifi::csv_reader& rows, const scifi::detector& where, int tracker, const scifi::channel_id& id) {
+  if (id.tracker != tracker) rows.fail("tracker", std::to_string(id.tracker) + " is not " + std::to_string(tracker) + ": one tracker is compared");
+  if (where.find_plane(id) == nullptr)
+    rows.fail("plane", "there is no plane " + std::to_string(id.plane) + " in station " + std::to_string(id.station) + " of tracker " + std::to_string(tracker));
+}
+
+/// The tracker of the first crossing.
+const scifi::tracker& tracker_of(const options& o, const scifi::detector& where) {
+  scifi::csv_reader truth(o.truth, {"tracker"});
+  if (!truth.next_row()) throw std::invalid_argument("--truth: no particle crosses a plane");
+  const int id = truth.whole_number<int>(0);
+  const scifi::tracker* t = where.find(id);
+  if (t == nullptr) truth.fail("tracker", "there is no tracker " + std::to_string(id));
+  return *t;
+}
+
+events read(const options& o, const scifi::any_geometry& geometry, int tracker) {
   events out;
   scifi::csv_reader truth(o.truth, {"event", "track", "pdg", "tracker", "station", "plane", "x_mm", "y_mm", "z_mm", "px_MeV", "py_MeV", "pz_MeV"});
   while (truth.next_row()) {
     scifi::truth& of = out[truth.whole_number<long>(0)];
     scifi::crossing c{truth.whole_number<int>(1), truth.whole_number<int>(2), truth.whole_number<int>(3), truth.whole_number<int>(4), truth.whole_number<int>(5),
                       {truth.number(6), truth.number(7), truth.number(8)}, {truth.number(9), truth.number(10), truth.number(11)}};
+    check_plane(truth, geometry.detector, tracker, {c.tracker, c.station, c.plane, 0});
+    if (c.momentum.z() == 0.0) truth.fail("pz_MeV", "a crossing needs a momentum along z");
     if (!of.crossings.empty() && of.crossings.front().particle != c.particle) truth.fail("track", "there is a second particle in this event; one each is compared");
     of.crossings.push_back(c);
   }
@@ -51,20 +70,21 @@ events read(const options& o) {
     h.parent = hits.whole_number<int>(2);
     h.pdg_id = hits.whole_number<int>(3);
     h.fibre = hits.whole_number<int>(7);
-    h.id = {hits.whole_number<int>(4), hits.whole_number<int>(5), hits.whole_number<int>(6), scifi::channel_of_fibre({}, h.fibre)};
+    h.id = {hits.whole_number<int>(4), hits.whole_number<int>(5), hits.whole_number<int>(6), scifi::channel_of_fibre(geometry.fibre, h.fibre)};
+    check_plane(hits, geometry.detector, tracker, h.id);
     h.edep = hits.number(8);
     out[hits.whole_number<long>(0)].hits.push_back(h);
   }
   std::erase_if(out, [](const auto& event) { return event.second.crossings.empty(); });
-  if (out.empty()) throw std::invalid_argument("--truth: no particle crosses a plane");
   return out;
 }
 
 /// Follows the particles of `theirs` again, each from just before its first crossing.
-void simulate(const events& theirs, const scifi::tracker& t, const options& o, scifi::compare::quantities& out) {
+void simulate(const events& theirs, const scifi::tracker& t, const scifi::fibre_doublet& fibre, const options& o, scifi::compare::quantities& out) {
   constexpr double before = 1.0;  // mm
   scifi::transport_settings settings;
   settings.field = o.field * scifi::units::tesla;
+  settings.doublet = fibre;
   const scifi::transport follow(t, settings, scifi::coulomb_scattering{}, scifi::collision_loss{});
   scifi::truth made;
   for (int turn = 0; turn < o.repeat; ++turn) {
@@ -84,15 +104,13 @@ void simulate(const events& theirs, const scifi::tracker& t, const options& o, s
 }
 
 bool run(const options& o) {
-  const scifi::detector detector = o.geometry.empty() ? scifi::mice::trackers() : scifi::read_geometry(o.geometry);
-  const events theirs = read(o);
-  const int id = theirs.begin()->second.crossings.front().tracker;
-  const scifi::tracker* t = detector.find(id);
-  if (t == nullptr) throw std::invalid_argument("--truth: the geometry has no tracker " + std::to_string(id));
+  const scifi::any_geometry geometry = o.geometry.empty() ? scifi::any_geometry{scifi::mice::trackers(), {}, {}, {}} : scifi::read_any_geometry(o.geometry);
+  const scifi::tracker& t = tracker_of(o, geometry.detector);
+  const events theirs = read(o, geometry, t.id);
 
-  scifi::compare::quantities reference(*t, o.field * scifi::units::tesla), own(*t, o.field * scifi::units::tesla);
+  scifi::compare::quantities reference(t, o.field * scifi::units::tesla), own(t, o.field * scifi::units::tesla);
   for (const auto& [number, event] : theirs) reference.add(number, event);
-  simulate(theirs, *t, o, own);
+  simulate(theirs, t, geometry.fibre, o, own);
 
   fmt::print("{} particles of {}, each followed {} times\n\n", theirs.size(), o.truth, o.repeat);
   fmt::print("{:<60} {:>10} {:>10} {:>7} {:>7}  {}\n", "", "own", "reference", "ratio", "error", "limit");
@@ -128,7 +146,7 @@ int main(int argc, char** argv) {
   app.add_option("--field", o.field, "uniform field along z of the tracker frame, tesla")->capture_default_str();
   app.add_option("--repeat", o.repeat, "how often each particle is followed")->check(CLI::Range(1, 1000))->capture_default_str();
   app.add_option("--seed", o.seed, "seed")->capture_default_str();
-  app.add_option("--geometry", o.geometry, "geometry in JSON; the MICE trackers unless given");
+  app.add_option("--geometry", o.geometry, "geometry in JSON or MiceModules; the MICE trackers unless given");
   app.add_flag("--check", o.check, "exit with 1 when a figure is further off than its limit and two statistical errors");
   bool all_close = true;
   const int status = run_program("scifi-compare-simulation", app, argc, argv, [&] { all_close = run(o); });

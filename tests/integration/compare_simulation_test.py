@@ -27,7 +27,11 @@ def check_refusals(folder):
     hits.write_text(HITS)
     truth.write_text(TRUTH)
     for content, words in ((TRUTH, "no particle crosses"),
-                           (TRUTH + "0,1,-13,7,1,0,0,0,0,0,0,200\n", "no tracker 7"),
+                           (TRUTH + "0,1,-13,7,1,0,0,0,0,0,0,200\n", "truth.csv:2: tracker: there is no tracker 7"),
+                           (TRUTH + "0,1,-13,1,1,0,0,0,0,0,0,200\n1,1,-13,0,1,0,0,0,0,0,0,200\n", "truth.csv:3: tracker: 0 is not 1"),
+                           (TRUTH + "0,1,-13,1,50,0,0,0,0,0,0,200\n", "truth.csv:2: plane: there is no plane 0 in station 50 of tracker 1"),
+                           (TRUTH + "0,1,-13,1,1,-1,0,0,0,0,0,200\n", "truth.csv:2: plane: there is no plane -1"),
+                           (TRUTH + "0,1,-13,1,1,0,0,0,0,0,0,0\n", "truth.csv:2: pz_MeV: a crossing needs"),
                            (TRUTH + "0,1,-13,1,1,0,0,0,0,0,0,200\n0,2,-13,1,1,0,0,0,0,0,0,200\n", "second particle")):
         truth.write_text(content)
         done = run("--truth", truth, "--hits", hits)

@@ -90,9 +90,10 @@ class quantities {
     const vector<double, 3> first = vector<double, 3>(before.z(), 0.0, -before.x()).normalized();
     const vector<double, 3> second{before.y() * first.z() - before.z() * first.y(), before.z() * first.x() - before.x() * first.z(),
                                    before.x() * first.y() - before.y() * first.x()};
-    const auto& planes = tracker_.stations[static_cast<std::size_t>(a.station - 1)].planes;
     double layer = 0.0;
-    for (const plane& p : planes) layer += radiation_lengths(p.below) + radiation_lengths(p.above);
+    for (const station& s : tracker_.stations)
+      if (s.id == a.station)
+        for (const plane& p : s.planes) layer += radiation_lengths(p.below) + radiation_lengths(p.above);
     layer /= std::abs(before.z());
     const double highland = std::sqrt(highland_variance(0.5 * (a.momentum.norm() + b.momentum.norm()), back.hypothesis, layer, layer));
     constexpr double to_mrad = 1.0 / units::mrad;
