@@ -48,7 +48,7 @@ TEST_CASE("a malformed list of channels is refused with file, line and column", 
       {header + "0,1,3,1\n", ":2: plane: there is no plane 3 in station 1 of tracker 0"},
       {header + "0,6,0,1\n", ":2: plane: there is no plane 0 in station 6 of tracker 0"},
       {header + "2,1,0,1\n", ":2: plane: there is no plane 0 in station 1 of tracker 2"},
-      {std::string("\xFF\xFEt\0r\0\n\0", 8), ":1: tracker: the header has no column of this name, it reads '??t?r?'"},
+      {std::string("\xFF\xFEt\0r\0\n\0", 8), ":1: tracker: the header has no column of this name, it reads '\xFF\xFEt?r?'"},
   };
   const temporary_folder folder;
   for (const row& r : table) {

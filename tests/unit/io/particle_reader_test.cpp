@@ -55,7 +55,7 @@ TEST_CASE("a beam file that does not fit is refused with file, line and column",
       {header + "1,1,13,x,0,0,0,0,0,1\n", ":2: x_mm: 'x' is not a number"},
       {header + "1,1,13,nan,0,0,0,0,0,1\n", ":2: x_mm: 'nan' is not a finite number"},
       {header + "1,1,13,0,0,0,,0,0,1\n", ":2: t_ns: the field is empty"},
-      {std::string("\xFF\xFE" "e\0v\0", 6), ":1: event: the header has no column of this name, it reads '??e?v?'"},
+      {std::string("\xFF\xFE" "e\0v\0", 6), ":1: event: the header has no column of this name, it reads '\xFF\xFE" "e?v?'"},
   };
   const temporary_folder folder;
   for (const row& r : table) {
