@@ -5,9 +5,11 @@
 #include <concepts>
 
 #include <scifi/core/constants.hpp>
+#include <scifi/kalman/concepts.hpp>
 #include <scifi/particle_to_hit/helix_step.hpp>
 #include <scifi/particle_to_hit/moving_particle.hpp>
 #include <scifi/track_model/slope_state.hpp>
+#include <scifi/track_model/stretch.hpp>
 
 namespace scifi {
 
@@ -30,8 +32,8 @@ struct helix_flight {
   [[nodiscard]] double largest_radius(const moving_particle& moving, double dz) const { return scifi::largest_radius(moving, dz, field); }
 };
 
-/// Flight by a propagator of the fit: one of slope_state whose step is a length dz (mm), so that simulation and fit can share a model of the field.
-/// Its momentum keeps its magnitude; the path, for the time, is dz times the mean of p/|pz| at both ends, exact where the field is along z.
+/// Flight by a propagator of the fit: one of slope_state whose step is a `stretch` or a length dz (mm), so that simulation and fit share a field.
+/// The momentum keeps its magnitude; the path, for the time, is dz times the mean of p/|pz| at both ends, exact where the field is along z.
 template <class Propagator>
 struct slope_flight {
   Propagator propagator;
@@ -45,18 +47,27 @@ struct slope_flight {
     start[s::tx] = p.x() / p.z();
     start[s::ty] = p.y() / p.z();
     start[s::q_over_pz] = moving.hypothesis.charge / p.z();
-    const vector<double, 5> end = propagator.propagate(start, dz).state;
+    const vector<double, 5> end = moved(start, moving.position.z(), dz);
 
     const double magnitude = p.norm();
-    const double stretch_start = magnitude / p.z();  // path over dz, with the sign of pz
-    const double stretch_end = std::copysign(std::sqrt(1.0 + end[s::tx] * end[s::tx] + end[s::ty] * end[s::ty]), p.z());
+    const double per_dz_start = magnitude / p.z();  // path over dz, with the sign of pz
+    const double per_dz_end = std::copysign(std::sqrt(1.0 + end[s::tx] * end[s::tx] + end[s::ty] * end[s::ty]), p.z());
     moving_particle out = moving;
     out.position = {end[s::x], end[s::y], moving.position.z() + dz};
-    out.momentum = (magnitude / stretch_end) * vector<double, 3>(end[s::tx], end[s::ty], 1.0);
-    out.t += 0.5 * (stretch_start + stretch_end) * dz * moving.energy() / (magnitude * constants::speed_of_light);
+    out.momentum = (magnitude / per_dz_end) * vector<double, 3>(end[s::tx], end[s::ty], 1.0);
+    out.t += 0.5 * (per_dz_start + per_dz_end) * dz * moving.energy() / (magnitude * constants::speed_of_light);
     return out;
   }
+
+ private:
+  [[nodiscard]] vector<double, 5> moved(const vector<double, 5>& start, double z, double dz) const {
+    if constexpr (kalman::general_propagator<Propagator, double, 5, stretch>) return propagator.propagate(start, stretch{z, dz}).state;
+    else return propagator.propagate(start, dz).state;
+  }
 };
+
+template <class Propagator>
+slope_flight(Propagator) -> slope_flight<Propagator>;
 
 /// True where a particle that goes from `moving` to `end` over dz is at most `radius` (mm) from the z axis all the way; NaN is not.
 template <flight_propagator Propagator>

@@ -6,9 +6,11 @@
 #include <limits>
 
 #include <scifi/core/units.hpp>
+#include <scifi/field/graded_field.hpp>
 #include <scifi/geometry/mice.hpp>
 #include <scifi/particle_to_hit/transport.hpp>
 #include <scifi/track_model/helix_propagator.hpp>
+#include <scifi/track_model/nystrom_propagator.hpp>
 
 #include "support/catch.hpp"
 
@@ -136,6 +138,24 @@ TEST_CASE("a simulation in a field that grows along z conserves what theory says
     // And it is another flight than the helix: 5 % of a turn of some 5 rad on a radius of 50 mm.
     CHECK((out.crossings.back().position - uniform.crossings.back().position).norm() > 3.0);
   }
+}
+
+TEST_CASE("the Runge-Kutta-Nystrom propagator of the fit flies a simulated particle through a field that changes", "[particle_to_hit]") {
+  const graded_flight graded{3.0 * units::tesla, 0.0003 * units::tesla};
+  const slope_flight fit{nystrom_propagator{graded_field{graded.field, graded.gradient}, nystrom_options{.tolerance = 1e-6}}};
+  static_assert(flight_propagator<decltype(fit)>);
+  for (const particle& hypothesis : {muon_plus, muon_minus})
+    for (const double pz : {180.0, -180.0}) {
+      const moving_particle m = muon(hypothesis, {30.0, -20.0, 500.0}, {25.0, 40.0, pz});
+      const double dz = pz > 0.0 ? 350.0 : -350.0;  // the longest gap between stations
+      const moving_particle a = graded.propagate(m, dz);
+      const moving_particle b = fit.propagate(m, dz);
+      CAPTURE(hypothesis.name, pz);
+      CHECK((a.position - b.position).norm() < 1e-4);
+      CHECK((a.momentum - b.momentum).norm() < 1e-4);
+      CHECK(b.momentum.norm() == Approx(m.momentum.norm()).epsilon(1e-13));
+      CHECK(std::abs(b.t - a.t) < 1e-3);  // ns, of 1.4: p/pz is taken as linear between the ends
+    }
 }
 
 TEST_CASE("without field a simulation by straight lines is one by helices", "[particle_to_hit]") {
