@@ -21,7 +21,7 @@ namespace scifi {
 /// How a flight through a field ended.
 enum class flight_status {
   arrived,
-  not_finite,      ///< the state at the start was not
+  not_finite,      ///< the state at the start or the way was not
   no_field,        ///< the field said NaN: the track left the region where it is known
   too_many_steps,  ///< the tolerance asks for more steps than allowed: a wild field, or a particle that turns back
 };
@@ -30,7 +30,7 @@ enum class flight_status {
 [[nodiscard]] constexpr std::string_view describe(flight_status s) {
   switch (s) {
     case flight_status::arrived: return "the track arrived";
-    case flight_status::not_finite: return "the track began with a number that is infinite or not a number";
+    case flight_status::not_finite: return "the track or its way began with a number that is infinite or not a number";
     case flight_status::no_field: return "the track left the region where the field is known";
     case flight_status::too_many_steps: return "the track needs more steps than allowed";
   }
@@ -86,6 +86,7 @@ struct nystrom_propagator {
     if constexpr (step::has_gradient) d.position[step::x_column].x = d.position[step::y_column].y = Scalar(1.0);
 
     flight_result<Scalar> out;
+    if (!std::isfinite(way.z) || !std::isfinite(way.dz)) now.position.x = Scalar(std::numeric_limits<double>::quiet_NaN());
     if (!any_of(alive(now))) out.status = flight_status::not_finite;
     // Steps are counted in units of dz / 2^finest, so that the last one ends where it should.
     const int finest = static_cast<int>(std::bit_width(static_cast<unsigned>(std::max(options.most_steps, 1)))) - 1;

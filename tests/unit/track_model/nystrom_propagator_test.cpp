@@ -180,6 +180,13 @@ TEST_CASE("a track that leaves the field, begins nowhere or turns back says so, 
   vector<double, 5> nowhere = muon(180.0);
   nowhere[ss::ty] = std::numeric_limits<double>::quiet_NaN();
   CHECK(inside.fly(nowhere, {0.0, 100.0}).status == flight_status::not_finite);
+  for (const double strange : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
+    const auto lost = inside.fly(muon(180.0), {0.0, strange});
+    CHECK(lost.status == flight_status::not_finite);
+    CHECK(std::isnan(lost.moved.state[ss::x]));
+    CHECK(inside.fly(muon(180.0), {strange, 10.0}).status == flight_status::not_finite);
+  }
+  CHECK(nystrom_propagator{graded}.fly(muon(180.0), {0.0, 1e300}).status != flight_status::arrived);
 
   // A transverse field of 3 T turns 50 MeV/c back on a radius of 56 mm.
   const nystrom_propagator across{uniform_field{{three_tesla, 0.0, 0.0}}};
