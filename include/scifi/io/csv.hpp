@@ -95,6 +95,16 @@ class csv_reader {
     return value;
   }
 
+  /// The wanted field of this row as a number, which may be "nan": what was not measured. Throws input_error where it is neither.
+  [[nodiscard]] double number_or_nan(std::size_t wanted) const {
+    const double value = parse<double>(wanted, " is not a number");
+    if (!is_finite(value) && value == value) fail(wanted_[wanted], in_quotes(field(wanted)) + " is not a finite number");
+    return value;
+  }
+
+  /// The wanted field of this row as it stands there, valid until the next row.
+  [[nodiscard]] std::string_view text(std::size_t wanted) const { return field(wanted); }
+
   /// Throws input_error at this row.
   [[noreturn]] void fail(std::string column, std::string reason) const {
     throw input_error(lines_.name(), lines_.line(), std::move(column), std::move(reason));

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+#include <cmath>
+
+#include <scifi/study/binomial_interval.hpp>
+#include <scifi/study/momentum_bins.hpp>
+#include <scifi/study/true_track.hpp>
+
+namespace scifi::study {
+
+/// Found of expected.
+struct found_share {
+  long expected = 0;
+  long found = 0;
+
+  void operator()(bool was_found) {
+    ++expected;
+    found += was_found ? 1 : 0;
+  }
+  found_share& operator+=(const found_share& other) {
+    expected += other.expected;
+    found += other.found;
+    return *this;
+  }
+  /// NaN where nothing was expected.
+  [[nodiscard]] double value() const { return static_cast<double>(found) / static_cast<double>(expected); }
+  [[nodiscard]] probability_interval interval(double sigmas = 1.0) const {
+    return wilson_interval(static_cast<double>(found), static_cast<double>(expected), sigmas);
+  }
+};
+
+/// Share of expected particles that have a track, in all and against their true pt and |pz| at the reference surface. Merged with +=.
+class efficiency {
+ public:
+  explicit efficiency(const momentum_edges& edges = {}) : grid_(make_momentum_grid<found_share>(edges)) {}
+
+  /// An expected particle, and whether a track of it was found.
+  void add(const true_track& particle, bool found) {
+    all_(found);
+    grid_(particle.pt(), std::abs(particle.reference()->momentum.z()), boost::histogram::sample(found));
+  }
+  efficiency& operator+=(const efficiency& other) {
+    all_ += other.all_;
+    grid_ += other.grid_;
+    return *this;
+  }
+
+  [[nodiscard]] const found_share& all() const { return all_; }
+  [[nodiscard]] const momentum_grid<found_share>& grid() const { return grid_; }
+
+ private:
+  found_share all_;
+  momentum_grid<found_share> grid_;
+};
+
+}  // namespace scifi::study
