@@ -43,6 +43,17 @@ macro(scifi_find_conditions)
   endif()
 endmacro()
 
+# Sets SCIFI_STUDY_FOUND. Quiet, as for io. Headers alone: Boost.Histogram.
+macro(scifi_find_study)
+  find_package(Boost 1.81 QUIET CONFIG)
+  if(TARGET Boost::headers)
+    set(SCIFI_STUDY_FOUND ON)
+  else()
+    set(SCIFI_STUDY_FOUND OFF)
+    message(STATUS "scifi: no scifi::study (needs Boost.Histogram 1.81; Debian: libboost1.81-dev)")
+  endif()
+endmacro()
+
 # Catch2 2.13 or 3. The tests bring their own main, so the target without one is enough.
 macro(scifi_need_catch)
   find_package(Catch2 3 QUIET)

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MPL-2.0
-# find_package(scifi 0.1) gives scifi::scifi; with COMPONENTS io also scifi::io, with COMPONENTS conditions that and scifi::conditions.
+# find_package(scifi 0.1) gives scifi::scifi; with COMPONENTS io also scifi::io, with COMPONENTS conditions that and scifi::conditions;
+# with COMPONENTS study scifi::study.
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
@@ -15,6 +16,10 @@ endif()
 if(TARGET scifi_conditions)
   install(TARGETS scifi_conditions EXPORT scifi_conditions_targets)
   install(EXPORT scifi_conditions_targets FILE scifi_conditions_targets.cmake NAMESPACE scifi:: DESTINATION "${package_dir}")
+endif()
+if(TARGET scifi_study)
+  install(TARGETS scifi_study EXPORT scifi_study_targets)
+  install(EXPORT scifi_study_targets FILE scifi_study_targets.cmake NAMESPACE scifi:: DESTINATION "${package_dir}")
 endif()
 configure_package_config_file("${PROJECT_SOURCE_DIR}/cmake/scifi-config.cmake.in"
   "${PROJECT_BINARY_DIR}/scifi-config.cmake" INSTALL_DESTINATION "${package_dir}")

@@ -2,7 +2,7 @@
 # Sourced by the other scripts: install_missing <Debian package>...
 
 build_packages=(g++ cmake ninja-build ccache python3 pkg-config
-  libeigen3-dev catch2 libbenchmark-dev nlohmann-json3-dev zlib1g-dev libcli11-dev libtbb-dev libfmt-dev libboost1.81-dev libsqlite3-dev)
+  libeigen3-dev catch2 libbenchmark-dev nlohmann-json3-dev zlib1g-dev libcli11-dev libtbb-dev libfmt-dev libboost1.81-dev libsqlite3-dev python3-matplotlib)
 
 install_missing() {
   if ! command -v dpkg-query >/dev/null || ! command -v apt-get >/dev/null; then

@@ -30,6 +30,7 @@ ALLOWED = {
     "information": NOUNS | {"candidate_to_track"},
     "io": NOUNS | set(ARROWS) | {"chain"},
     "conditions": NOUNS | {"io"},
+    "study": NOUNS | set(ARROWS) | {"chain", "information"},
 }
 # headers directly in include/scifi
 UMBRELLAS = {
@@ -44,7 +45,8 @@ UMBRELLAS = {
 # third-party headers, by folder; everywhere else Eigen is the only one
 EIGEN = ("Eigen/", "unsupported/Eigen/")
 THIRD_PARTY = {"io": EIGEN + ("nlohmann/", "zlib.h", "fcntl.h", "unistd.h"),
-               "conditions": EIGEN + ("sqlite3.h",)}
+               "conditions": EIGEN + ("sqlite3.h",),
+               "study": EIGEN + ("boost/histogram/",)}
 # headers of the standard library with a slash or a suffix in their name
 STANDARD = ("experimental/simd",)
 

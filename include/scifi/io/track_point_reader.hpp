@@ -50,9 +50,9 @@ class track_point_reader {
     if (detector_.find_plane({of.tracker, p.station, p.plane, 0}) == nullptr)
       row.fail("plane", "there is no plane " + std::to_string(p.plane) + " in station " + std::to_string(p.station) + " of tracker " + std::to_string(of.tracker));
     p.z = row.number(z);
-    vector<double, 5> mean, sigmas;
-    mean << row.number(x), row.number(tx), row.number(y), row.number(ty), row.number(q_over_pz);
-    sigmas << row.number_or_nan(sigma_x), row.number_or_nan(sigma_tx), row.number_or_nan(sigma_y), row.number_or_nan(sigma_ty), row.number_or_nan(sigma_q_over_pz);
+    const vector<double, 5> mean{row.number(x), row.number(tx), row.number(y), row.number(ty), row.number(q_over_pz)};
+    const vector<double, 5> sigmas{row.number_or_nan(sigma_x), row.number_or_nan(sigma_tx), row.number_or_nan(sigma_y), row.number_or_nan(sigma_ty),
+                                   row.number_or_nan(sigma_q_over_pz)};
     p.smoothed = kalman::uncorrelated(mean, sigmas);
     p.residual = row.number_or_nan(residual);
     p.pull = row.number_or_nan(pull);

@@ -46,6 +46,7 @@ class track_reader {
       row.fail("track", std::to_string(place) + (place < 0 ? " is negative" : ": the tracks of an event stand in the order of their numbers, each once"));
     if (place >= most_tracks) row.fail("track", std::to_string(place) + ": no event has so many tracks");
     track absent;
+    absent.reference = {vector<double, 5>::Zero(), matrix<double, 5, 5>::Zero()};
     absent.status.why = kalman::reason::not_finite;
     out.tracks.resize(static_cast<std::size_t>(place), absent);
 
@@ -62,9 +63,9 @@ class track_reader {
     t.p_value = row.number_or_nan(p_value);
     if (t.ndf > 0 && !(t.p_value >= 0.0 && t.p_value <= 1.0)) row.fail("p_value", in_quotes(row.text(p_value)) + " is outside 0 .. 1");
     t.z = row.number(z);
-    vector<double, 5> mean, sigmas;
-    mean << row.number(x), row.number(y), row.number(px), row.number(py), row.number(pz);
-    sigmas << row.number_or_nan(sigma_x), row.number_or_nan(sigma_y), row.number_or_nan(sigma_px), row.number_or_nan(sigma_py), row.number_or_nan(sigma_pz);
+    const vector<double, 5> mean{row.number(x), row.number(y), row.number(px), row.number(py), row.number(pz)};
+    const vector<double, 5> sigmas{row.number_or_nan(sigma_x), row.number_or_nan(sigma_y), row.number_or_nan(sigma_px), row.number_or_nan(sigma_py),
+                                   row.number_or_nan(sigma_pz)};
     if (mean[4] == 0.0) row.fail("pz_MeV", "a track has a momentum along z");
     for (int i = 0; i < 5; ++i)
       if (sigmas[i] < 0.0) row.fail(row.column_name(sigma_x + static_cast<std::size_t>(i)), "a standard deviation is not negative");

@@ -19,7 +19,7 @@ namespace scifi::study {
 struct station_channel_sums {
   int station = 0;
   double expected = 0.0;  ///< sum of the central channels of its planes
-  distribution difference{48, -12.0, 12.0, "sum of channels - expected"};  ///< of half channels, which are the steps of the sum
+  distribution difference{49, -12.25, 12.25, "sum of channels - expected"};  ///< bins about half channels, which are the steps of the sum
 };
 
 /// Kuno's conjecture: the channel numbers of the three clusters of a space point add up to a constant, for the coordinates of three views at 120
@@ -48,7 +48,7 @@ class channel_sums {
           const double rest = s.expected - a.channel - b.channel;
           const std::span<const cluster> last = plane(2);
           auto c = std::lower_bound(last.begin(), last.end(), rest - reach, [](const cluster& one, double channel) { return one.channel < channel; });
-          for (; c != last.end() && c->channel < rest + reach; ++c) s.difference.add(c->channel - rest);
+          for (; c != last.end() && c->channel <= rest + reach; ++c) s.difference.add(c->channel - rest);
         }
       }
     }

@@ -5,6 +5,7 @@
 #include <cstddef>
 
 #include <scifi/event/track.hpp>
+#include <scifi/information/track_bound.hpp>
 #include <scifi/study/momentum_bins.hpp>
 #include <scifi/study/sample.hpp>
 #include <scifi/study/state_residuals.hpp>
@@ -19,21 +20,34 @@ struct momentum_pair {
   double pz = 0.0;
 };
 
-/// Residuals of pt and pz of the tracks of one cell, and the standard deviations that the fit states.
-struct momentum_cell {
-  sample pt, pz, stated_pt, stated_pz;
+/// One component of the momentum for many tracks: residuals, the standard deviations that the fit states, and the least that are possible.
+struct momentum_samples {
+  sample residual, stated, bound;
 
-  void operator()(const momentum_pair& residual, const momentum_pair& stated) {
-    pt.add(residual.pt);
-    pz.add(residual.pz);
-    stated_pt.add(stated.pt);
-    stated_pz.add(stated.pz);
+  momentum_samples& operator+=(const momentum_samples& other) {
+    residual += other.residual;
+    stated += other.stated;
+    bound += other.bound;
+    return *this;
+  }
+};
+
+/// The tracks of one cell.
+struct momentum_cell {
+  momentum_samples pt, pz;
+
+  void operator()(const momentum_pair& residual, const momentum_pair& stated, const momentum_pair& bound) {
+    const auto add = [](momentum_samples& to, double off, double sigma, double least) {
+      to.residual.add(off);
+      to.stated.add(sigma);
+      to.bound.add(least);
+    };
+    add(pt, residual.pt, stated.pt, bound.pt);
+    add(pz, residual.pz, stated.pz, bound.pz);
   }
   momentum_cell& operator+=(const momentum_cell& other) {
     pt += other.pt;
     pz += other.pz;
-    stated_pt += other.stated_pt;
-    stated_pz += other.stated_pz;
     return *this;
   }
 };
@@ -54,7 +68,7 @@ class momentum_resolution {
   explicit momentum_resolution(const momentum_edges& edges = {}) : grid_(make_momentum_grid<momentum_cell>(edges)) {}
 
   /// A line has no momentum and is passed over.
-  void add(const true_track& particle, const track& t) {
+  void add(const true_track& particle, const track& t, const reference_bound& limit) {
     if (t.shape == track_shape::line) return;
     using m = momentum_state;
     const auto off = residuals_of(particle, t);
@@ -64,7 +78,8 @@ class momentum_resolution {
     const matrix<double, 2, 2> transverse = t.reference.covariance.block<2, 2>(m::px, m::px);
     const momentum_pair residual{off[residual_quantity::pt], off[residual_quantity::pz]};
     const momentum_pair stated{std::sqrt(along.dot(transverse * along)), kalman::sigma(t.reference, m::pz)};
-    grid_(pt, std::abs(truth[m::pz]), boost::histogram::sample(residual, stated));
+    const momentum_pair bound{limit.pt, kalman::sigma(limit.momentum, m::pz)};
+    grid_(pt, std::abs(truth[m::pz]), boost::histogram::sample(residual, stated, bound));
   }
   momentum_resolution& operator+=(const momentum_resolution& other) {
     grid_ += other.grid_;

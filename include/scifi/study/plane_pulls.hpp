@@ -6,9 +6,11 @@
 #include <cstddef>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <scifi/event/track.hpp>
+#include <scifi/geometry/surface.hpp>
 #include <scifi/geometry/tracker.hpp>
 #include <scifi/study/distribution.hpp>
 #include <scifi/study/true_state.hpp>
@@ -21,7 +23,7 @@ namespace scifi::study {
 struct pulls_at_plane {
   int station = 0;
   int plane = 0;
-  /// Of the smoothed state (x, tx, y, ty, q/pz) against the truth.
+  /// Of the smoothed state (x, tx, y, ty, q/pz) against the truth, with the variance that the truth itself leaves open taken off.
   std::array<distribution, slope_state::dimension> state{pull("x"), pull("tx"), pull("y"), pull("ty"), pull("q/pz")};
   distribution measurement = pull("the measurement");  ///< of the cluster against the fit without it, as a fit to data has it too
   distribution residual{100, -4.0, 4.0, "measured - fitted without it [mm]"};
@@ -41,14 +43,12 @@ struct pulls_at_plane {
 class plane_pulls {
  public:
   /// `field`: Bz in the tracker frame, (MeV/c)/(e mm), which moves the truth to the middle of the planes.
-  plane_pulls(const tracker& where, double field) : field_(field) {
-    for (const station& s : where.stations) {
-      for (std::size_t p = 0; p < s.planes.size(); ++p) {
-        pulls_at_plane next;
-        next.station = s.id;
-        next.plane = static_cast<int>(p);
-        planes_.push_back(std::move(next));
-      }
+  plane_pulls(const tracker& where, double field) : field_(field), surfaces_(surfaces_along(where, +1)) {
+    for (const surface& s : surfaces_) {
+      pulls_at_plane next;
+      next.station = s.station;
+      next.plane = s.plane;
+      planes_.push_back(std::move(next));
     }
   }
 
@@ -59,12 +59,14 @@ class plane_pulls {
         if (planes_[i].station != p.station || planes_[i].plane != p.plane) continue;
         if (std::isfinite(p.pull)) planes_[i].measurement.add(p.pull);
         if (std::isfinite(p.residual)) planes_[i].residual.add(p.residual);
-        if (const auto truth = true_state_at(particle, i, p.z, field_)) {
-          for (std::size_t k = 0; k < planes_[i].state.size(); ++k) {
-            const auto c = static_cast<Eigen::Index>(k);
-            const double sigma = kalman::sigma(p.smoothed, c);
-            if (sigma > 0.0) planes_[i].state[k].add((p.smoothed.mean[c] - (*truth)[c]) / sigma);
-          }
+        const crossing* const in_front = particle.at[i];
+        if (in_front == nullptr) continue;
+        const crossing* const behind = i + 1 < particle.at.size() ? particle.at[i + 1] : nullptr;
+        const true_state truth = true_state_at(surfaces_[i], *in_front, behind, particle.charge, p.z, field_);
+        for (std::size_t k = 0; k < planes_[i].state.size(); ++k) {
+          const auto c = static_cast<Eigen::Index>(k);
+          const double variance = p.smoothed.covariance(c, c) - truth.open[c];
+          if (variance > 0.0) planes_[i].state[k].add((p.smoothed.mean[c] - truth.mean[c]) / std::sqrt(variance));
         }
       }
     }
@@ -78,6 +80,7 @@ class plane_pulls {
 
  private:
   double field_;
+  std::vector<surface> surfaces_;
   std::vector<pulls_at_plane> planes_;
 };
 

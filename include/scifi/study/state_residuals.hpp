@@ -10,10 +10,13 @@
 #include <utility>
 
 #include <scifi/event/track.hpp>
+#include <scifi/information/track_bound.hpp>
 #include <scifi/study/distribution.hpp>
 #include <scifi/study/efficiency.hpp>
+#include <scifi/study/sample.hpp>
 #include <scifi/study/true_track.hpp>
 #include <scifi/track_model/helix_state.hpp>
+#include <scifi/track_model/slope_state.hpp>
 
 namespace scifi::study {
 
@@ -41,6 +44,13 @@ struct residual_quantity {
           std::abs(fit[m::pz]) - std::abs(truth[m::pz])};
 }
 
+/// The standard deviations that no unbiased fit of this track can go below, in the same order.
+[[nodiscard]] inline std::array<double, residual_quantity::dimension> bounds_of(const reference_bound& b) {
+  using m = momentum_state;
+  using s = slope_state;
+  return {kalman::sigma(b.momentum, m::x), kalman::sigma(b.momentum, m::y), kalman::sigma(b.slopes, s::tx), kalman::sigma(b.slopes, s::ty), b.pt, kalman::sigma(b.momentum, m::pz)};
+}
+
 /// Residuals and pulls (residual over stated standard deviation) at the reference surface. Merged with +=.
 class state_residuals {
  public:
@@ -54,22 +64,27 @@ class state_residuals {
 
   /// A component without a standard deviation (the momentum of a line along z) has no pull. The momentum of a line is an assumption: it has
   /// neither residuals nor pulls.
-  void add(const true_track& particle, const track& t) {
+  void add(const true_track& particle, const track& t, const reference_bound& limit) {
     using q = residual_quantity;
     const auto off = residuals_of(particle, t);
+    const auto least = bounds_of(limit);
     const bool line = t.shape == track_shape::line;
-    for (std::size_t i = 0; i < q::dimension; ++i)
-      if (!line || (i != q::pt && i != q::pz)) residual_[i].add(off[i]);
+    for (std::size_t i = 0; i < q::dimension; ++i) {
+      if (line && (i == q::pt || i == q::pz)) continue;
+      residual_[i].add(off[i]);
+      bound_[i].add(least[i]);
+    }
     const vector<double, 5> truth = particle.state();
     for (std::size_t i = 0; i < pull_.size(); ++i) {
       const auto k = static_cast<Eigen::Index>(i);
       const double sigma = kalman::sigma(t.reference, k);
       if (sigma > 0.0 && (!line || k < momentum_state::px)) pull_[i].add((t.reference.mean[k] - truth[k]) / sigma);
     }
-    charge_(t.charge == particle.charge);
+    if (!line) charge_(t.charge == particle.charge);
   }
   state_residuals& operator+=(const state_residuals& other) {
     for (std::size_t i = 0; i < residual_.size(); ++i) residual_[i] += other.residual_[i];
+    for (std::size_t i = 0; i < bound_.size(); ++i) bound_[i] += other.bound_[i];
     for (std::size_t i = 0; i < pull_.size(); ++i) pull_[i] += other.pull_[i];
     charge_ += other.charge_;
     return *this;
@@ -77,7 +92,9 @@ class state_residuals {
 
   [[nodiscard]] const distribution& residual(residual_quantity::component c) const { return residual_[c]; }
   [[nodiscard]] const distribution& pull(momentum_state::component c) const { return pull_[c]; }
-  /// Tracks with the right sign of charge, of all.
+  /// The bound of each track with a residual; `mixture_spread` of them is what the spread of the residuals would be at the bound.
+  [[nodiscard]] const sample& bound(residual_quantity::component c) const { return bound_[c]; }
+  /// Tracks with the right sign of charge, of all that are bent.
   [[nodiscard]] const found_share& charge() const { return charge_; }
 
  private:
@@ -88,6 +105,7 @@ class state_residuals {
 
   std::array<distribution, residual_quantity::dimension> residual_;
   std::array<distribution, momentum_state::dimension> pull_;
+  std::array<sample, residual_quantity::dimension> bound_;
   found_share charge_;
 };
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <map>
 #include <span>
 #include <utility>
 #include <vector>
@@ -9,6 +10,8 @@
 #include <scifi/event/event.hpp>
 #include <scifi/event/truth.hpp>
 #include <scifi/geometry/tracker.hpp>
+#include <scifi/information/track_bound.hpp>
+#include <scifi/material/particle.hpp>
 #include <scifi/study/efficiency.hpp>
 #include <scifi/study/goodness_of_fit.hpp>
 #include <scifi/study/momentum_resolution.hpp>
@@ -29,7 +32,7 @@ struct study_options {
 
 /// Reconstructed tracks of one tracker beside what really flew: efficiency, ghosts, residuals, pulls, goodness of fit.
 ///
-/// Efficiency and ghosts are of all events. Residuals, pulls and chi2 are those of expected particles that cross all stations and have a track.
+/// Beside the resolutions is the Cramer-Rao bound of each track, from the true state and the true kind of particle. Efficiency and ghosts are of all events. Residuals, pulls and chi2 are those of expected particles that cross all stations and have a track.
 /// Studies of parts of the events, with the same options and trackers of the same planes, are merged with +=.
 class track_study {
  public:
@@ -37,7 +40,7 @@ class track_study {
       : found(options.edges), momentum(options.edges), planes(where, options.field), where_(std::move(where)), options_(std::move(options)) {}
 
   efficiency found;
-  long tracks = 0;      ///< with a fit that went through
+  long tracks = 0;      ///< of which the fit went through
   long failed = 0;      ///< fits that stopped
   long ghosts = 0;      ///< tracks of no particle, or of one that has a nearer track
   long duplicates = 0;  ///< of the ghosts, those of a particle that has a nearer track
@@ -98,14 +101,24 @@ class track_study {
 
  private:
   void compare(const true_track& particle, const track& t, const event& e) {
-    residuals.add(particle, t);
-    momentum.add(particle, t);
+    const reference_bound limit = bound_of(particle);
+    residuals.add(particle, t, limit);
+    momentum.add(particle, t, limit);
     goodness.add(t);
     planes.add(particle, std::span(e.track_points).subspan(static_cast<std::size_t>(t.first_point), static_cast<std::size_t>(t.points)));
   }
 
+  /// A kind of particle that the library does not know is taken for a muon.
+  [[nodiscard]] reference_bound bound_of(const true_track& particle) {
+    const int pdg = particle.reference()->pdg_id;
+    auto known = bounds_.find(pdg);
+    if (known == bounds_.end()) known = bounds_.emplace(pdg, make_track_bound(where_, options_.field, particle_from_pdg(pdg).value_or(muon_plus))).first;
+    return known->second(particle.state(), particle.charge);
+  }
+
   tracker where_;
   study_options options_;
+  std::map<int, decltype(make_track_bound(std::declval<const tracker&>(), 0.0))> bounds_;  // by the number of the kind of particle
 };
 
 }  // namespace scifi::study

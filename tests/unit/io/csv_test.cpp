@@ -91,3 +91,16 @@ TEST_CASE("a whole number that does not fit its type is refused", "[io]") {
   REQUIRE(rows.next_row());
   CHECK_THROWS_AS(rows.whole_number<int>(0), input_error);
 }
+
+TEST_CASE("a number that may be missing, and a field as it stands", "[io]") {
+  const temporary_folder folder;
+  csv_reader rows(folder.file("a.csv", "x,name\nnan,helix\n1.5, line \ninf,\n"), {"x", "name"});
+  REQUIRE(rows.next_row());
+  CHECK(rows.number_or_nan(0) != rows.number_or_nan(0));
+  CHECK(rows.text(1) == "helix");
+  REQUIRE(rows.next_row());
+  CHECK(rows.number_or_nan(0) == 1.5);
+  CHECK(rows.text(1) == "line");
+  REQUIRE(rows.next_row());
+  CHECK(message_of<input_error>([&] { static_cast<void>(rows.number_or_nan(0)); }).ends_with("a.csv:4: x: 'inf' is not a finite number"));
+}
