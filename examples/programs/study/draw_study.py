@@ -74,8 +74,9 @@ class Page:
         self.folder, self.figures = folder, []
 
     def keep(self, figure, name, title, caption):
-        for suffix in ("png", "svg"):
-            figure.savefig(self.folder / f"{name}.{suffix}", metadata={"Date": None} if suffix == "svg" else {"Software": None})
+        figure.savefig(self.folder / f"{name}.png", metadata={"Software": None})
+        figure.set_layout_engine("none")  # everything has its place by now
+        figure.savefig(self.folder / f"{name}.svg", metadata={"Date": None})
         plt.close(figure)
         self.figures.append((name, title, caption))
 
