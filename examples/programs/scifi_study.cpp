@@ -58,6 +58,8 @@ void check(const options& o) {
   };
   require(rise(o.study.edges.pt), "--pt-edges: not two or more rising numbers");
   require(rise(o.study.edges.pz), "--pz-edges: not two or more rising numbers");
+  require(rise(o.study.wide_edges.pt), "--wide-pt-edges: not two or more rising numbers");
+  require(rise(o.study.wide_edges.pz), "--wide-pz-edges: not two or more rising numbers");
 }
 
 /// What is known of a tracker, and whether it has anything at all.
@@ -112,7 +114,8 @@ json to_json(const options& o, const whole_study& s, const json& before) {
   const study::expectation& e = o.study.expected;
   out["definitions"] = {{"min_stations", e.min_stations}, {"max_pt_over_pz", e.max_pt_over_pz}, {"match_mm", o.study.window.position},
                         {"match_MeV", o.study.window.momentum}, {"shift_share_of_spread", study::shift_rule{}.share_of_spread},
-                        {"shift_more_tracks_than", study::shift_rule{}.more_tracks_than}, {"pt_edges", o.study.edges.pt}, {"pz_edges", o.study.edges.pz}};
+                        {"shift_more_tracks_than", study::shift_rule{}.more_tracks_than}, {"pt_edges", o.study.edges.pt}, {"pz_edges", o.study.edges.pz},
+                        {"wide_pt_edges", o.study.wide_edges.pt}, {"wide_pz_edges", o.study.wide_edges.pz}};
   out["events"] = s.events;
   out["events_without_truth"] = s.without_truth;
   out["trackers"] = json::array();
@@ -200,6 +203,8 @@ int main(int argc, char** argv) {
   app.add_option("--max-pt-over-pz", o.study.expected.max_pt_over_pz, "and whose pt/|pz| is below this")->capture_default_str();
   app.add_option("--pt-edges", o.study.edges.pt, "edges of the bins in true pt, MeV/c, with commas between")->delimiter(',')->capture_default_str();
   app.add_option("--pz-edges", o.study.edges.pz, "edges of the bins in true |pz|, MeV/c, with commas between")->delimiter(',')->capture_default_str();
+  app.add_option("--wide-pt-edges", o.study.wide_edges.pt, "of those in which the momentum is looked at in two dimensions")->delimiter(',')->capture_default_str();
+  app.add_option("--wide-pz-edges", o.study.wide_edges.pz, "likewise")->delimiter(',')->capture_default_str();
   app.add_option("--python", o.python, "Python 3 with matplotlib that draws; unless given the one on the path, else the system's");
   app.add_flag("--no-page", o.no_page, "write study.json alone");
   app.set_version_flag("--version", std::string(scifi::version));

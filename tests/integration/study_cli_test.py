@@ -27,7 +27,6 @@ import zlib
 BIN = None
 PROGRAM = None
 EVENTS = 400
-PT_EDGES = [0, 2, 5, 10, 20, 30, 40, 50, 70, 90]
 TRUTH_HEADER = "event,track,pdg,tracker,station,plane,x_mm,y_mm,z_mm,px_MeV,py_MeV,pz_MeV\n"
 
 
@@ -215,6 +214,14 @@ class Study(unittest.TestCase):
             p = sorted(own.column(lambda _, fit: float(fit["p_value"])))
             distance = max(max((i + 1) / len(p) - v, v - i / len(p)) for i, v in enumerate(p))
             self.assertAlmostEqual(block["p_value"]["kolmogorov_smirnov_distance"], distance, places=9)
+            for b in block["momentum_in_bins"]["by_pt_and_pz"]:
+                inside = [p for p in own.compared if b["pt"][0] <= math.hypot(*p[0][2:4]) < b["pt"][1] and b["pz"][0] <= abs(p[0][4]) < b["pz"][1]]
+                values = [residual("pt")(p[0], p[3]) for p in inside]
+                q = b["residual_pt"]
+                self.assertEqual(q["n"], len(values))
+                if len(values) > 1:
+                    self.assertAlmostEqual(q["median_over_spread"], quantile(values, 0.5) / spread(values), places=9)
+                    self.assertEqual(q["shifted"], len(values) > 200 and abs(quantile(values, 0.5)) > 0.03 * spread(values))
             for b in block["momentum_in_bins"]["by_pt"]:
                 inside = [residual("pz")(p[0], p[3]) for p in own.compared if b["pt"][0] <= math.hypot(*p[0][2:4]) < b["pt"][1]]
                 self.assertEqual(b["residual_pz"]["n"], len(inside))
@@ -420,6 +427,7 @@ class Study(unittest.TestCase):
         both = ("muons_truth.csv", "tracks.csv")
         self.assertIn("--pt-edges: not two or more rising numbers", self.refused(*both, "--pt-edges", "0,20,10"))
         self.assertIn("--pz-edges: not two or more rising numbers", self.refused(*both, "--pz-edges", "100"))
+        self.assertIn("--wide-pt-edges: not two or more rising numbers", self.refused(*both, "--wide-pt-edges", "0,0"))
         self.assertIn("--field: not a finite number", self.refused(*both, "--field", "nan"))
         self.assertIn("other.json: format: is missing", self.refused(*both, "--before", self.write("other.json", "{}")))
         self.assertIn("other.json: format: is not 'scifi-study'", self.refused(*both, "--before", self.write("other.json", '{"format": "scifi-geometry", "version": 1}')))

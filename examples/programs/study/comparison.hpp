@@ -55,10 +55,12 @@ inline constexpr int format_version = 1;
     add("share of " + name + " beyond 5 spreads", "", json(), json(), "/residuals/" + name + "/beyond_5_spreads");
   }
   for (const auto& [name, r] : all.at("pulls").items()) add("spread of the pull of " + name, "", json(), 1, "/pulls/" + name + "/spread");
+  for (const auto& [name, r] : all.at("pulls").items()) add("share of the pull of " + name + " beyond 5 spreads", "", json(), json(), "/pulls/" + name + "/beyond_5_spreads");
   add("chi2 per degree of freedom, mean", "", json(), 1, "/chi2_per_ndf/mean");
   add("p-value: Kolmogorov-Smirnov distance from flat", "", json(), json(), "/p_value/kolmogorov_smirnov_distance");
   add("efficiency", "", json(), 1, "/efficiency/value");
   add("ghosts per event", "", json(), 0, "/ghosts_per_event");
+  add("ghosts per expected track", "", json(), 0, "/ghosts_per_expected");
   add("sign of the charge right", "", json(), 1, "/charge_correct/value");
   return rows;
 }

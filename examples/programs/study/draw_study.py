@@ -126,7 +126,7 @@ def draw_efficiency(study, page):
     values = [c["value"] for t in study.trackers for c in t["efficiency_in_bins"]["by_pt_and_pz"] if c["expected"] > 0]
     lowest = min([0.98] + values)
     for axis, (tracker, *_, label) in zip(axes[0], study.styled()):
-        grid, cells = cells_of(study, tracker["efficiency_in_bins"]["by_pt_and_pz"])
+        grid, cells = grid_of(study), tracker["efficiency_in_bins"]["by_pt_and_pz"]
         drawn = map_of(axis, grid, cells, "value", lambda c: c["expected"] > 0, vmin=lowest, vmax=1.0, cmap="cividis")
         for c in cells:
             if c["expected"] > 0:
@@ -138,9 +138,9 @@ def draw_efficiency(study, page):
     page.keep(figure, "efficiency_map", "Efficiency in two dimensions", "Found and expected particles in bins of true pz and pt. The bins of pt are drawn equally high.")
 
 
-def cells_of(study, cells):
-    edges = study.document["definitions"]
-    return (edges["pt_edges"], edges["pz_edges"]), cells
+def grid_of(study, wide=""):
+    """Edges of the cells in pt and pz."""
+    return study.document["definitions"][wide + "pt_edges"], study.document["definitions"][wide + "pz_edges"]
 
 
 def place(grid, cell):
@@ -346,7 +346,7 @@ def draw_shift(study, page):
 
     figure, axes = plt.subplots(1, count, figsize=(min(PAGE_WIDTH, 1.2 + 4.2 * count), 4.0), squeeze=False)
     for axis, (tracker, *_, label) in zip(axes[0], study.styled()):
-        grid, cells = cells_of(study, [dict(c["residual_pz"], pt=c["pt"], pz=c["pz"]) for c in tracker["momentum_in_bins"]["by_pt_and_pz"]])
+        grid, cells = grid_of(study, "wide_"), [dict(c["residual_pz"], pt=c["pt"], pz=c["pz"]) for c in tracker["momentum_in_bins"]["by_pt_and_pz"]]
         drawn = map_of(axis, grid, cells, "median_over_spread", lambda c: c["n"] > 20, vmin=-0.5, vmax=0.5, cmap="PuOr")
         for c in cells:
             if c["n"] <= 20:
@@ -354,7 +354,8 @@ def draw_shift(study, page):
             sigmas = abs(c["median"]) / c["median_error"]
             text_in_cell(axis, grid, c, f"{100 * c['median_over_spread']:+.0f} %\n{sigmas:.1f} σ, {c['n']}", "black" if abs(c["median_over_spread"]) < 0.3 else "white")
             if c["shifted"]:
-                axis.add_patch(Rectangle((c["pz"][0], place(grid, c)[0]), c["pz"][1] - c["pz"][0], 1, fill=False, edgecolor=VERMILLION, linewidth=1.8, zorder=3))
+                width = c["pz"][1] - c["pz"][0]
+                axis.add_patch(Rectangle((c["pz"][0] + 0.02 * width, place(grid, c)[0] + 0.04), 0.96 * width, 0.92, fill=False, edgecolor=VERMILLION, linewidth=1.8, zorder=3))
         axis.set_title(label)
         axis.set_xlabel(MOMENTUM["pz"])
     axes[0][0].set_ylabel(MOMENTUM["pt"])
@@ -553,11 +554,11 @@ def tables(study):
                 [[b["name"], str(b["efficiency"]["expected"]), str(b["efficiency"]["found"]), b["efficiency"]["value"],
                   f"{number(b['efficiency']['low']):.4f} to {number(b['efficiency']['high']):.4f}", str(b["tracks"]), str(b["ghosts"]), str(b["duplicates"]), b["ghosts_per_event"]] for b in blocks])
     shifted = [(t, q, c) for t in d["trackers"] if "momentum_in_bins" in t for q in ("pt", "pz") for c in t["momentum_in_bins"]["by_pt_and_pz"] if c["residual_" + q]["shifted"]]
-    tried = sum(c["residual_" + q]["n"] > d["definitions"]["shift_more_tracks_than"] for t in d["trackers"] if "momentum_in_bins" in t
-                for q in ("pt", "pz") for c in t["momentum_in_bins"]["by_pt_and_pz"])
+    tried = [c["residual_" + q] for t in d["trackers"] if "momentum_in_bins" in t for q in ("pt", "pz") for c in t["momentum_in_bins"]["by_pt_and_pz"]
+             if c["residual_" + q]["n"] > d["definitions"]["shift_more_tracks_than"]]
     if tried:
-        yield table(f"Bins of (pt, pz) with a shift of more than {100 * d['definitions']['shift_share_of_spread']:g} % of the spread: {len(shifted)} of {tried} bins with more than "
-                    f"{d['definitions']['shift_more_tracks_than']} tracks.",
+        yield table(f"Bins of (pt, pz) with a shift of more than {100 * d['definitions']['shift_share_of_spread']:g} % of the spread: {len(shifted)} of {len(tried)} bins with more than "
+                    f"{d['definitions']['shift_more_tracks_than']} tracks. So few tracks give {sum(c['shifted_by_chance'] for c in tried):.1f} such bins by chance, were there no shift at all.",
                     ["tracker", "of", "pt MeV/c", "pz MeV/c", "tracks", "median MeV/c", "± error", "spread MeV/c", "median/spread"],
                     [[t["name"], q, "{:g} to {:g}".format(*c["pt"]), "{:g} to {:g}".format(*c["pz"]), str(c["residual_" + q]["n"]), c["residual_" + q]["median"], c["residual_" + q]["median_error"],
                       c["residual_" + q]["spread"], c["residual_" + q]["median_over_spread"]] for t, q, c in shifted])

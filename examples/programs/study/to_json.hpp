@@ -45,15 +45,6 @@ using json = nlohmann::ordered_json;
   return {{"expected", s.expected}, {"found", s.found}, {"value", s.value()}, {"low", i.low}, {"high", i.high}};
 }
 
-/// Calls visit(name, low, high) with the name of the axis (without its unit) and the edges of bin i.
-template <class Axis>
-[[nodiscard]] json edges_of(const Axis& axis) {
-  json out = json::array();
-  for (int i = 0; i < axis.size(); ++i) out.push_back(axis.bin(i).lower());
-  out.push_back(axis.bin(axis.size() - 1).upper());
-  return out;
-}
-
 template <class Cell, class Show>
 [[nodiscard]] json row_to_json(const char* name, const study::momentum_row<Cell>& row, const Show& show) {
   json out = json::array();
@@ -65,9 +56,8 @@ template <class Cell, class Show>
   return out;
 }
 
-/// Cells of pt and pz: {"by_pt": [...], "by_pz": [...], "by_pt_and_pz": [...]}.
 template <class Cell, class Show>
-[[nodiscard]] json grid_to_json(const study::momentum_grid<Cell>& grid, const Show& show) {
+[[nodiscard]] json cells_to_json(const study::momentum_grid<Cell>& grid, const Show& show) {
   json cells = json::array();
   const auto& pt = grid.axis(0);
   const auto& pz = grid.axis(1);
@@ -78,7 +68,13 @@ template <class Cell, class Show>
       cells.push_back(std::move(bin));
     }
   }
-  return {{"by_pt", row_to_json("pt", study::in_pt(grid), show)}, {"by_pz", row_to_json("pz", study::in_pz(grid), show)}, {"by_pt_and_pz", std::move(cells)}};
+  return cells;
+}
+
+/// Cells in pt and in pz of one grid, and in both of another (it may be the same).
+template <class Cell, class Show>
+[[nodiscard]] json grids_to_json(const study::momentum_grid<Cell>& single, const study::momentum_grid<Cell>& both, const Show& show) {
+  return {{"by_pt", row_to_json("pt", study::in_pt(single), show)}, {"by_pz", row_to_json("pz", study::in_pz(single), show)}, {"by_pt_and_pz", cells_to_json(both, show)}};
 }
 
 /// One component of the momentum in one cell: residuals, what the fit states, the bound; all in the same kind of spread.
@@ -89,6 +85,7 @@ template <class Cell, class Show>
   out["bound"] = mixture_spread(s.bound.values());
   out["median_over_spread"] = residual.median / residual.spread;
   out["shifted"] = study::shift_rule{}(residual);
+  out["shifted_by_chance"] = study::shift_rule{}.by_chance(residual);
   return out;
 }
 
@@ -133,7 +130,7 @@ template <class Cell, class Show>
   out["duplicates"] = t.duplicates;
   out["ghosts_per_event"] = static_cast<double>(t.ghosts) / static_cast<double>(events);
   out["ghosts_per_expected"] = static_cast<double>(t.ghosts) / static_cast<double>(t.found.all().expected);
-  out["efficiency_in_bins"] = grid_to_json(t.found.grid(), [](const study::found_share& s) { return to_json(s); });
+  out["efficiency_in_bins"] = grids_to_json(t.found.grid(), t.found.grid(), [](const study::found_share& s) { return to_json(s); });
   out["charge_correct"] = to_json(t.residuals.charge());
   out["residuals"] = residuals_to_json(t.residuals);
   out["pulls"] = pulls_to_json(t.residuals);
@@ -143,7 +140,8 @@ template <class Cell, class Show>
   out["p_value"]["kolmogorov_smirnov_distance"] = flat.distance;
   out["p_value"]["kolmogorov_smirnov_probability"] = flat.probability;
   if (!out["residuals"].contains("pt")) return out;
-  out["momentum_in_bins"] = grid_to_json(t.momentum.grid(), [](const study::momentum_cell& c) { return json{{"residual_pt", to_json(c.pt)}, {"residual_pz", to_json(c.pz)}}; });
+  out["momentum_in_bins"] =
+      grids_to_json(t.momentum.fine(), t.momentum.wide(), [](const study::momentum_cell& c) { return json{{"residual_pt", to_json(c.pt)}, {"residual_pz", to_json(c.pz)}}; });
   return out;
 }
 

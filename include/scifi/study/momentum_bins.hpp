@@ -21,6 +21,9 @@ struct momentum_edges {
   std::vector<double> pz{100, 130, 160, 190, 220, 250, 280};  ///< of |pz|
 };
 
+/// Wider cells in two dimensions, for what needs many tracks in each: the shift of the momentum.
+[[nodiscard]] inline momentum_edges wide_momentum_edges() { return {.pt = {0, 5, 10, 20, 30, 50, 90}, .pz = {100, 160, 220, 280}}; }
+
 /// Cells in true (pt, |pz|), with underflow and overflow. A cell counts or collects; what it is filled with is up to its type.
 template <class Cell>
 using momentum_grid = boost::histogram::histogram<std::tuple<boost::histogram::axis::variable<>, boost::histogram::axis::variable<>>, boost::histogram::dense_storage<Cell>>;

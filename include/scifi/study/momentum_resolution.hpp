@@ -60,12 +60,19 @@ struct shift_rule {
   [[nodiscard]] bool operator()(const summary& residuals) const {
     return residuals.count > more_tracks_than && std::abs(residuals.median) > share_of_spread * residuals.spread;
   }
+  /// Probability that a cell with so many tracks counts as shifted although its residuals have no shift, for the statistical error of the median alone.
+  [[nodiscard]] double by_chance(const summary& residuals) const {
+    if (residuals.count <= more_tracks_than) return 0.0;
+    return std::erfc(share_of_spread * residuals.spread / (residuals.median_error * std::sqrt(2.0)));
+  }
 };
 
-/// Resolution and bias of the momentum against true pt and |pz| at the reference surface. Merged with +=.
+/// Resolution and bias of the momentum against true pt and |pz| at the reference surface, in fine cells to be looked at in each of the two, and in wide ones
+/// for both together. Merged with +=.
 class momentum_resolution {
  public:
-  explicit momentum_resolution(const momentum_edges& edges = {}) : grid_(make_momentum_grid<momentum_cell>(edges)) {}
+  explicit momentum_resolution(const momentum_edges& fine = {}, const momentum_edges& wide = wide_momentum_edges())
+      : fine_(make_momentum_grid<momentum_cell>(fine)), wide_(make_momentum_grid<momentum_cell>(wide)) {}
 
   /// A line has no momentum and is passed over.
   void add(const true_track& particle, const track& t, const reference_bound& limit) {
@@ -79,17 +86,19 @@ class momentum_resolution {
     const momentum_pair residual{off[residual_quantity::pt], off[residual_quantity::pz]};
     const momentum_pair stated{std::sqrt(along.dot(transverse * along)), kalman::sigma(t.reference, m::pz)};
     const momentum_pair bound{limit.pt, kalman::sigma(limit.momentum, m::pz)};
-    grid_(pt, std::abs(truth[m::pz]), boost::histogram::sample(residual, stated, bound));
+    for (auto* cells : {&fine_, &wide_}) (*cells)(pt, std::abs(truth[m::pz]), boost::histogram::sample(residual, stated, bound));
   }
   momentum_resolution& operator+=(const momentum_resolution& other) {
-    grid_ += other.grid_;
+    fine_ += other.fine_;
+    wide_ += other.wide_;
     return *this;
   }
 
-  [[nodiscard]] const momentum_grid<momentum_cell>& grid() const { return grid_; }
+  [[nodiscard]] const momentum_grid<momentum_cell>& fine() const { return fine_; }
+  [[nodiscard]] const momentum_grid<momentum_cell>& wide() const { return wide_; }
 
  private:
-  momentum_grid<momentum_cell> grid_;
+  momentum_grid<momentum_cell> fine_, wide_;
 };
 
 }  // namespace scifi::study

@@ -14,6 +14,7 @@
 #include <scifi/material/particle.hpp>
 #include <scifi/study/efficiency.hpp>
 #include <scifi/study/goodness_of_fit.hpp>
+#include <scifi/study/momentum_bins.hpp>
 #include <scifi/study/momentum_resolution.hpp>
 #include <scifi/study/plane_pulls.hpp>
 #include <scifi/study/state_residuals.hpp>
@@ -28,6 +29,7 @@ struct study_options {
   expectation expected{};
   match_window window{};
   momentum_edges edges{};
+  momentum_edges wide_edges = wide_momentum_edges();  ///< of the cells in which the momentum is looked at in two dimensions
 };
 
 /// Reconstructed tracks of one tracker beside what really flew: efficiency, ghosts, residuals, pulls, goodness of fit.
@@ -37,7 +39,7 @@ struct study_options {
 class track_study {
  public:
   track_study(tracker where, study_options options)
-      : found(options.edges), momentum(options.edges), planes(where, options.field), where_(std::move(where)), options_(std::move(options)) {}
+      : found(options.edges), momentum(options.edges, options.wide_edges), planes(where, options.field), where_(std::move(where)), options_(std::move(options)) {}
 
   efficiency found;
   long tracks = 0;      ///< of which the fit went through

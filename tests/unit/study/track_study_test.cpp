@@ -45,8 +45,8 @@ TEST_CASE("an event with a found and a missed particle, a ghost, a duplicate and
   CHECK(study.duplicates == 1);
   CHECK(study.residuals.residual(residual_quantity::x).values.values()[0] == Approx(0.3));
   CHECK(study.goodness.p_value.values.size() == 1);
-  REQUIRE(study.momentum.grid().at(5, 3).pz.residual.size() == 1);
-  CHECK(study.momentum.grid().at(5, 3).pz.residual.values()[0] == Approx(3.0));
+  REQUIRE(study.momentum.fine().at(5, 3).pz.residual.size() == 1);
+  CHECK(study.momentum.fine().at(5, 3).pz.residual.values()[0] == Approx(3.0));
 }
 
 TEST_CASE("a particle that misses a station counts for the efficiency alone", "[study]") {
@@ -81,7 +81,7 @@ TEST_CASE("studies of two halves of the events, merged, are the study of all", "
     CHECK(odd.residuals.bound(c).sorted() == all.residuals.bound(c).sorted());
     CHECK((odd.residuals.residual(c).histogram == all.residuals.residual(c).histogram));
   }
-  CHECK(in_pt(odd.momentum.grid()).at(3).pz.residual.sorted() == in_pt(all.momentum.grid()).at(3).pz.residual.sorted());
+  CHECK(in_pt(odd.momentum.fine()).at(3).pz.residual.sorted() == in_pt(all.momentum.fine()).at(3).pz.residual.sorted());
 }
 
 TEST_CASE("beside each residual stands the bound of that track, for the true kind of particle", "[study]") {
