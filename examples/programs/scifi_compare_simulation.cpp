@@ -104,7 +104,7 @@ void simulate(const events& theirs, const scifi::tracker& t, const scifi::fibre_
 }
 
 bool run(const options& o) {
-  const scifi::any_geometry geometry = o.geometry.empty() ? scifi::any_geometry{scifi::mice::trackers(), {}, {}, {}} : scifi::read_any_geometry(o.geometry);
+  const scifi::any_geometry geometry = o.geometry.empty() ? scifi::any_geometry{scifi::mice::trackers(), {}, {}, {}, {}} : scifi::read_any_geometry(o.geometry);
   const scifi::tracker& t = tracker_of(o, geometry.detector);
   const events theirs = read(o, geometry, t.id);
 

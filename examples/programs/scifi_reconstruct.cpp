@@ -18,12 +18,13 @@
 #include <CLI/CLI.hpp>
 
 #include <scifi/chain/reconstruction.hpp>
-#include <scifi/core/units.hpp>
 #include <scifi/geometry/mice.hpp>
 #include <scifi/io/any_geometry.hpp>
+#include <scifi/track_model/nystrom_propagator.hpp>
 #include <scifi/version.hpp>
 
 #include "conditions/stored_conditions.hpp"
+#include "field/chosen_field.hpp"
 #include "reconstruct/event_pipeline.hpp"
 #include "run_program.hpp"
 
@@ -34,8 +35,8 @@ namespace fs = std::filesystem;
 struct options {
   stored_conditions stored;
   std::string digits, geometry, output = "tracks.csv", track_points, particle = "mu";
-  std::optional<double> given_field;  // tesla
-  double field = 3.0, min_npe = 2.0, momentum = 200.0;
+  chosen_field field;
+  double min_npe = 2.0, momentum = 200.0;
   int threads = 0;
 };
 
@@ -56,12 +57,11 @@ void check(const options& o) {
   const auto require = [](bool good, const char* what) {
     if (!good) throw std::invalid_argument(what);
   };
-  require(std::isfinite(o.given_field.value_or(0.0)), "--field: not a finite number");
   require(std::isfinite(o.min_npe) && o.min_npe >= 0.0, "--min-npe: not a finite number from 0 on");
   require(std::isfinite(o.momentum) && o.momentum > 0.0, "--momentum: not a finite number above 0");
   require(o.threads >= 0 && o.threads <= 1024, "--threads: not in 0 .. 1024");
   for (const std::string& out : {o.output, o.track_points}) {
-    for (const std::string& in : {o.digits, o.geometry, o.stored.store()})
+    for (const std::string& in : {o.digits, o.geometry, o.stored.store(), o.field.file()})
       if (!out.empty() && !in.empty() && same_file(in, out)) throw std::invalid_argument(out + ": would overwrite what is read");
   }
   require(o.track_points.empty() || !same_file(o.output, o.track_points), "--output and --track-points: the same file");
@@ -73,8 +73,8 @@ void print_summary(const options& o, const totals& sum, const scifi::particle& h
   const auto row = [out](const char* name, long count, const std::string& remark = "") { fmt::print(out, "{:<16}{:>12}{}\n", name, count, remark); };
   fmt::print(out, "scifi-reconstruct {}   units: mm, MeV/c, tesla\n", scifi::version);
   fmt::print(out, "{:<16}{}, {}, {}\n", "read", o.digits, o.geometry.empty() ? "MICE trackers as surveyed" : o.stored.origin(o.geometry),
-             o.field != 0.0 ? fmt::format("{} T, helices, mass of {}", o.field, hypothesis.name)
-                            : fmt::format("no field, straight lines at {} MeV/c, mass of {}", o.momentum, hypothesis.name));
+             o.field.none() ? fmt::format("no field, straight lines at {} MeV/c, mass of {}", o.momentum, hypothesis.name)
+                            : fmt::format("{}, helices, mass of {}", o.field.description(), hypothesis.name));
   row("events", sum.events);
   row("digits", sum.digits);
   row("clusters", sum.clusters);
@@ -99,25 +99,9 @@ void keep_partial(scifi::atomic_file& tracks, std::optional<scifi::atomic_file>&
   fmt::print(stderr, "scifi-reconstruct: the {} tracks of the {} events before the mistake are kept in {}\n", sum.tracks, sum.events, names);
 }
 
-void run(options& o) {
-  const auto start = std::chrono::steady_clock::now();
-  o.stored.fill_in(o.geometry, scifi::condition_kind::geometry);
-  check(o);
-  const scifi::particle hypothesis = hypothesis_named(o.particle);
-  scifi::detector detector = scifi::mice::trackers();
-  scifi::reconstruction_options choice{.hypothesis = hypothesis, .min_npe = o.min_npe, .line_momentum = o.momentum, .fibre = {}};
-  if (!o.geometry.empty()) {
-    scifi::any_geometry geometry = scifi::read_any_geometry(o.geometry);
-    for (const std::string& note : geometry.notes) fmt::print(stderr, "note: {}\n", note);
-    if (!o.given_field)
-      if (const auto field = geometry.common_field()) o.field = *field / scifi::units::tesla;
-    detector = std::move(geometry.detector);
-    choice.fibre = geometry.fibre;
-  }
-  o.field = o.given_field.value_or(o.field);
-  choice.field = o.field * scifi::units::tesla;
-  const auto reconstruct = scifi::make_reconstruction(detector, choice);
-
+template <class Reconstruction>
+void write_tracks(const options& o, const scifi::detector& detector, const scifi::particle& hypothesis, std::chrono::steady_clock::time_point start,
+                  const Reconstruction& reconstruct) {
   event_source source(o.digits, detector);
   scifi::atomic_file tracks(o.output);
   std::optional<scifi::atomic_file> points;
@@ -146,6 +130,35 @@ void run(options& o) {
   print_summary(o, result.sum, hypothesis, threads, seconds);
 }
 
+void run(options& o) {
+  const auto start = std::chrono::steady_clock::now();
+  o.stored.fill_in(o.geometry, scifi::condition_kind::geometry);
+  check(o);
+  const scifi::particle hypothesis = hypothesis_named(o.particle);
+  scifi::detector detector = scifi::mice::trackers();
+  scifi::reconstruction_options choice{.hypothesis = hypothesis, .min_npe = o.min_npe, .line_momentum = o.momentum, .fibre = {}};
+  std::optional<scifi::any_geometry> geometry;
+  if (!o.geometry.empty()) {
+    geometry = scifi::read_any_geometry(o.geometry);
+    for (const std::string& note : geometry->notes) fmt::print(stderr, "note: {}\n", note);
+    detector = geometry->detector;
+    choice.fibre = geometry->fibre;
+  }
+  o.field.resolve(detector, geometry ? &*geometry : nullptr);
+  if (o.field.mapped())
+    write_tracks(o, detector, hypothesis, start, scifi::make_reconstruction(detector, choice, [&o](const scifi::tracker& t) {
+                   // A thousandth of the resolution of a plane is lost at most.
+                   constexpr scifi::nystrom_options steps{1e-2};
+                   const tracker_field& f = o.field.in(t);
+                   return scifi::tracker_flight<scifi::nystrom_propagator<scifi::field_map>>{{*f.map, steps}, f.mean};
+                 }));
+  else
+    write_tracks(o, detector, hypothesis, start, scifi::make_reconstruction(detector, choice, [&o](const scifi::tracker& t) {
+                   const double field = o.field.in(t).mean;
+                   return scifi::tracker_flight<scifi::helix_propagator>{{field}, field};
+                 }));
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -155,7 +168,7 @@ int main(int argc, char** argv) {
       ->required();
   app.add_option("--geometry", o.geometry, "geometry in JSON (.json) or MiceModules (.dat); the MICE trackers unless given");
   o.stored.offer(app);
-  app.add_option("--field", o.given_field, "uniform field along z of the tracker frame, tesla; 0: straight tracks; unless given that of the geometry, else 3");
+  o.field.offer(app);
   app.add_option("--particle", o.particle, "particle whose mass the fit assumes: mu, pi, e, p")->capture_default_str();
   app.add_option("--min-npe", o.min_npe, "least light of a digit, photo-electrons")->capture_default_str();
   app.add_option("--momentum", o.momentum, "momentum along z assumed for straight tracks, MeV/c")->capture_default_str();

@@ -26,7 +26,9 @@
 #include <scifi/particle_to_hit/transport.hpp>
 
 #include "conditions/stored_conditions.hpp"
+#include "field/chosen_field.hpp"
 #include "simulate/beam.hpp"
+#include "simulate/chosen_flight.hpp"
 #include "simulate/make_event.hpp"
 #include "simulate/tables.hpp"
 #include "run_program.hpp"
@@ -42,8 +44,7 @@ struct options {
   std::string tracker = "both";
   std::uint64_t seed = 1;
   std::string output = "simulated";
-  std::optional<double> given_field;  // tesla
-  double field = 3.0;
+  chosen_field field;
   std::vector<double> pz{100.0, 280.0};
   std::vector<double> pt{0.0, 90.0};
   double radius = 110.0;
@@ -67,16 +68,17 @@ struct options {
 using simulate::follow;
 
 template <class Scattering>
-follow with_scattering(const scifi::tracker& t, const scifi::transport_settings& settings, const std::string& loss, Scattering scattering) {
-  if (loss == "collisions") return scifi::transport(t, settings, scattering, scifi::collision_loss{});
-  if (loss == "mean") return scifi::transport(t, settings, scattering, scifi::fixed_loss<scifi::mean_energy_loss>{});
-  return scifi::transport(t, settings, scattering, scifi::fixed_loss<scifi::no_energy_loss>{});
+follow with_scattering(const scifi::tracker& t, const scifi::transport_settings& settings, const options& o, Scattering scattering) {
+  const simulate::chosen_flight flight(o.field.in(t));
+  if (o.energy_loss == "collisions") return scifi::transport(t, settings, scattering, scifi::collision_loss{}, flight);
+  if (o.energy_loss == "mean") return scifi::transport(t, settings, scattering, scifi::fixed_loss<scifi::mean_energy_loss>{}, flight);
+  return scifi::transport(t, settings, scattering, scifi::fixed_loss<scifi::no_energy_loss>{}, flight);
 }
 
 follow make_transport(const scifi::tracker& t, const scifi::transport_settings& settings, const options& o) {
-  if (o.scattering == "coulomb") return with_scattering(t, settings, o.energy_loss, scifi::coulomb_scattering{});
-  if (o.scattering == "highland") return with_scattering(t, settings, o.energy_loss, scifi::gaussian_scattering<scifi::highland_scattering>{});
-  return with_scattering(t, settings, o.energy_loss, scifi::gaussian_scattering<scifi::no_scattering>{});
+  if (o.scattering == "coulomb") return with_scattering(t, settings, o, scifi::coulomb_scattering{});
+  if (o.scattering == "highland") return with_scattering(t, settings, o, scifi::gaussian_scattering<scifi::highland_scattering>{});
+  return with_scattering(t, settings, o, scifi::gaussian_scattering<scifi::no_scattering>{});
 }
 
 simulate::beam beam_of(const options& o, const scifi::detector& where) {
@@ -84,7 +86,7 @@ simulate::beam beam_of(const options& o, const scifi::detector& where) {
   const auto species = scifi::particle_from_name(o.particle);
   if (!species) throw std::invalid_argument("--particle: '" + o.particle + "' is not known; try mu+, mu-, pi+, pi-, e+, e- or p");
   out.tracks_per_event = o.tracks_per_event;
-  out.field = o.field * scifi::units::tesla;
+  out.field = [&o](const scifi::tracker& t) { return o.field.in(t).mean; };
   if (!o.particles.empty()) {
     out.from = simulate::beam::kind::file;
     out.file = scifi::read_particles(o.particles, where);
@@ -109,15 +111,14 @@ void run(options& o) {
   o.stored.fill_in(o.geometry, scifi::condition_kind::geometry);
   scifi::detector detector = scifi::mice::trackers();
   scifi::transport_settings settings;
+  std::optional<scifi::any_geometry> geometry;
   if (!o.geometry.empty()) {
-    scifi::any_geometry geometry = scifi::read_any_geometry(o.geometry);
-    for (const std::string& note : geometry.notes) fmt::print(stderr, "note: {}\n", note);
-    if (!o.given_field)
-      if (const auto field = geometry.common_field()) o.field = *field / scifi::units::tesla;
-    detector = std::move(geometry.detector);
-    settings.doublet = geometry.fibre;
+    geometry = scifi::read_any_geometry(o.geometry);
+    for (const std::string& note : geometry->notes) fmt::print(stderr, "note: {}\n", note);
+    detector = geometry->detector;
+    settings.doublet = geometry->fibre;
   }
-  o.field = o.given_field.value_or(o.field);
+  o.field.resolve(detector, geometry ? &*geometry : nullptr);
 
   const simulate::beam beam = beam_of(o, detector);
   long events = o.events;
@@ -126,11 +127,13 @@ void run(options& o) {
     events = o.events_given ? std::min(o.events, in_file) : in_file;
   }
 
-  settings.field = o.field * scifi::units::tesla;
   settings.decays = !o.no_decays;
   std::vector<simulate::line> lines;
   for (const scifi::tracker& t : detector.trackers)
-    if (o.tracker == "both" || o.tracker == std::to_string(t.id)) lines.push_back({&t, make_transport(t, settings, o)});
+    if (o.tracker == "both" || o.tracker == std::to_string(t.id)) {
+      settings.field = o.field.in(t).mean;
+      lines.push_back({&t, make_transport(t, settings, o)});
+    }
   if (lines.empty()) throw std::invalid_argument("--tracker: the geometry has no tracker " + o.tracker);
 
   scifi::digitiser<> digitise;
@@ -163,7 +166,7 @@ void run(options& o) {
 
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   const double per_event = 1.0 / static_cast<double>(std::max(events, 1L) * static_cast<long>(lines.size()));
-  fmt::print("events              {:>10}   (seed {}, field {} T, {})\n", events, o.seed, o.field, o.particles.empty() ? o.particle : o.particles);
+  fmt::print("events              {:>10}   (seed {}, field {}, {})\n", events, o.seed, o.field.description(), o.particles.empty() ? o.particle : o.particles);
   if (!o.stored.store().empty()) fmt::print("geometry            {}\n", o.stored.origin(o.geometry));
   fmt::print("particles           {:>10}   {} of them through all planes\n", sum.particles, sum.crossed);
   fmt::print("plane crossings     {:>10}\n", sum.crossings);
@@ -187,7 +190,7 @@ int main(int argc, char** argv) {
   app.add_option("--tracker", o.tracker, "0 (upstream), 1 (downstream), or both, each with its own tracks in the same events")->capture_default_str();
   app.add_option("--seed", o.seed, "seed; the same seed gives the same events for any number of threads")->capture_default_str();
   app.add_option("--output", o.output, "prefix of the files that are written")->capture_default_str();
-  app.add_option("--field", o.given_field, "uniform field along z of the tracker frame, tesla; unless given that of the geometry, else 3")->check(CLI::Range(-100.0, 100.0));
+  o.field.offer(app);
   app.add_option("--beam", o.beam, "flat or gaussian")->check(CLI::IsMember({"flat", "gaussian"}))->capture_default_str();
   app.add_option("--particles", o.particles, "particles from a table instead: event,tracker,pdg,x_mm,y_mm,z_mm,t_ns,px_MeV,py_MeV,pz_MeV in the tracker's frame");
   app.add_option("--emittance", o.emittance, "Gaussian beam: normalised transverse emittance, mm")->capture_default_str();

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -23,7 +24,7 @@ struct beam {
   double distance = 30.0;  ///< of the Gaussian beam's plane before the first station that it meets, mm
   std::vector<beam_event> file;
   int tracks_per_event = 1;
-  double field = 0.0;
+  std::function<double(const tracker&)> field;  // mean of Bz in a tracker, (MeV/c)/(e mm)
 
   /// The number of event i of a run.
   [[nodiscard]] long number(long i) const { return from == kind::file ? file[static_cast<std::size_t>(i)].number : i; }
@@ -39,7 +40,7 @@ struct beam {
     for (int k = 0; k < tracks_per_event; ++k) {
       random_stream random(seed, static_cast<std::uint64_t>(i), stage::gun, static_cast<std::uint32_t>(before + k + 1));
       const double z = first.in_tracker.origin.z() - t.beam_direction * distance;
-      out.push_back(from == kind::flat ? flat.shoot(t, random) : gaussian.shoot(z, t.beam_direction, field, random));
+      out.push_back(from == kind::flat ? flat.shoot(t, random) : gaussian.shoot(z, t.beam_direction, field(t), random));
     }
   }
 };

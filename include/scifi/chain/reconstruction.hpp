@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -100,8 +99,14 @@ struct reconstruction_options {
   fibre_doublet fibre{};            ///< what the planes are made of, for the resolution of clusters
 };
 
-/// The standard chain for trackers of scintillating fibres; `flight_in(tracker)` gives the propagator of slope_state with which the fit flies in that tracker,
-/// in its frame: helix_propagator or nystrom_propagator. Pattern recognition takes the helix of `options.field`, the mean of the field on the axis.
+/// How a chain lets bent tracks fly in one tracker.
+template <class Flight>
+struct tracker_flight {
+  Flight flight;       ///< propagator of slope_state for the fit, in the tracker frame: helix_propagator, nystrom_propagator
+  double field = 0.0;  ///< mean of Bz on the axis, (MeV/c)/(e mm): pattern recognition takes its helix; zero: straight tracks
+};
+
+/// The standard chain for trackers of scintillating fibres, with `flight_in(tracker)`, a tracker_flight, in each tracker; `options.field` is not asked.
 template <class FlightIn>
 [[nodiscard]] auto make_reconstruction(const detector& where, const reconstruction_options& options, const FlightIn& flight_in) {
   const highland_scattering scattering;
@@ -110,16 +115,13 @@ template <class FlightIn>
   for (const tracker& t : where.trackers) stations = std::max(stations, t.stations.size());
   const median_energy_loss loss{static_cast<double>(stations)};
   const landau_straggling straggling{static_cast<double>(stations)};
-  using flight = std::decay_t<std::invoke_result_t<const FlightIn&, const tracker&>>;
+  using flight = decltype(flight_in(std::declval<const tracker&>()).flight);
   using fitter = track_fitter<median_energy_loss, highland_scattering, landau_straggling, kalman::joseph, kalman::no_gate, flight>;
 
   track_finder_options finding;
-  finding.field = options.field;
   finding.line_momentum = options.line_momentum;
   finding.line_charge = options.hypothesis.charge < 0 ? -1 : 1;
-  finding.min_stations = options.field != 0.0 ? 4 : 3;
   track_fit_options fitting;
-  fitting.field = options.field;
   fitting.line_momentum = options.line_momentum;
   fitting.prior = finding.prior;
 
@@ -130,15 +132,19 @@ template <class FlightIn>
   space_point_finder points;
   points.use = cluster_use::shared;
   std::vector<tracker_stages<track_finder, fitter>> trackers;
-  for (const tracker& t : where.trackers)
+  for (const tracker& t : where.trackers) {
+    const auto fly = flight_in(t);
+    finding.field = fitting.field = fly.field;
+    finding.min_stations = fly.field != 0.0 ? 4 : 3;
     trackers.push_back({t, track_finder(t, finding, options.hypothesis, scattering),
-                        fitter(t, fitting, options.hypothesis, loss, scattering, straggling, kalman::joseph{}, kalman::no_gate{}, flight_in(t))});
+                        fitter(t, fitting, options.hypothesis, loss, scattering, straggling, kalman::joseph{}, kalman::no_gate{}, fly.flight)});
+  }
   return reconstruction(where, clusters, points, std::move(trackers));
 }
 
 /// The same in a uniform field.
 [[nodiscard]] inline auto make_reconstruction(const detector& where, const reconstruction_options& options) {
-  return make_reconstruction(where, options, [field = options.field](const tracker&) { return helix_propagator{field}; });
+  return make_reconstruction(where, options, [field = options.field](const tracker&) { return tracker_flight<helix_propagator>{{field}, field}; });
 }
 
 }  // namespace scifi

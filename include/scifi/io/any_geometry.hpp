@@ -14,6 +14,7 @@
 #include <nlohmann/json.hpp>
 
 #include <scifi/core/units.hpp>
+#include <scifi/field/coil.hpp>
 #include <scifi/geometry/fibre.hpp>
 #include <scifi/geometry/tracker.hpp>
 #include <scifi/io/geometry_json.hpp>
@@ -29,6 +30,7 @@ struct any_geometry {
   scifi::detector detector;
   fibre_doublet fibre;
   std::vector<std::optional<double>> field;  ///< of each tracker, along z of its frame, in `units::tesla`, where the file says
+  std::vector<std::vector<coil>> coils;      ///< around each tracker, in its frame, where the file has coils
   std::vector<std::string> notes;            ///< what a user of the geometry should know of the file
 
   /// The one field that the file gives all trackers, or nothing. Throws std::invalid_argument when they have different ones.
@@ -59,7 +61,7 @@ struct any_geometry {
   any_geometry out;
   if (!looks_like_json(path)) {
     mice_geometry from = read_mice_geometry(path);
-    return {std::move(from.detector), from.fibre, std::move(from.field), std::move(from.notes)};
+    return {std::move(from.detector), from.fibre, std::move(from.field), std::move(from.coils), std::move(from.notes)};
   }
   const nlohmann::json document = read_json(path);
   out.detector = geometry_from_json(document, path.string());
@@ -72,7 +74,7 @@ struct any_geometry {
   return out;
 }
 
-/// The geometry as a JSON document that `read_any_geometry` reads back, field included; notes are left out.
+/// The geometry as a JSON document that `read_any_geometry` reads back, field included; notes and coils are left out.
 [[nodiscard]] inline nlohmann::ordered_json geometry_to_json(const any_geometry& g) {
   nlohmann::ordered_json out = geometry_to_json(g.detector, g.fibre);
   for (std::size_t i = 0; i < g.field.size() && i < g.detector.trackers.size(); ++i)

@@ -65,6 +65,15 @@ inline void collect_coils(const placed_module& here, double scale, std::vector<c
   return sum / steps;
 }
 
+/// Coils of the outermost module in a frame with the axes of `where` about `origin`, a point of `where`.
+[[nodiscard]] inline std::vector<coil> coils_seen_from(std::vector<coil> coils, const placed_module& where, const vector<double, 3>& origin) {
+  for (coil& c : coils) {
+    c.centre = rounded(vector<double, 3>(where.top_to_here * (c.centre - where.origin) - origin));
+    c.axis = where.top_to_here * c.axis;
+  }
+  return coils;
+}
+
 [[nodiscard]] inline std::string in_tesla(double field) {
   char text[32];
   std::snprintf(text, sizeof text, "%+.2f T", field / units::tesla);

@@ -32,6 +32,7 @@ struct mice_geometry {
   std::vector<std::optional<double>> field;
   /// The same from the coils of the file, if there are any: mean on the axis from the first station to the last.
   std::vector<std::optional<double>> coil_field;
+  std::vector<std::vector<coil>> coils;  ///< of the file, in the frame of each tracker
   std::vector<std::string> notes;  ///< what a user of the geometry should know of the file
 };
 
@@ -61,6 +62,7 @@ class mice_geometry_builder {
              in_tesla(*from_coils) + " in the mean from the " + std::to_string(coils.size()) + " coils of the file");
       out_.field.push_back(declared);
       out_.coil_field.push_back(from_coils);
+      out_.coils.push_back(coils_seen_from(coils, f.where, f.origin));
       out_.detector.trackers.push_back(std::move(f.result));
     }
     return std::move(out_);
@@ -70,7 +72,8 @@ class mice_geometry_builder {
   struct found_tracker {
     placed_module where;
     tracker result;
-    double first_z, last_z;  // of the stations, frame of the tracker's module
+    double first_z, last_z;    // of the stations, frame of the tracker's module
+    vector<double, 3> origin;  // of the tracker frame, in that of the module
   };
 
   void look_for_trackers(const placed_module& here) {
@@ -119,7 +122,7 @@ class mice_geometry_builder {
     }
     constexpr double quoted_radius = 150.0;  // mm, Ellis et al., NIM A 659 (2011) 136: the active diameter is 30 cm; the files do not hold it
     t.fiducial_radius = std::min(quoted_radius, t.active_radius);
-    return {where, std::move(t), stations.front().origin.z(), stations.back().origin.z()};
+    return {where, std::move(t), stations.front().origin.z(), stations.back().origin.z(), origin};
   }
 
   static void look_for_stations(const placed_module& here, std::vector<placed_module>& out) {

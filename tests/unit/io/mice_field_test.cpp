@@ -53,4 +53,9 @@ TEST_CASE("the field of a tracker is in the tracker's frame", "[io]") {
   // The coil, turned round with a negative current, makes a field along +z of the top, -z of the tracker; the tracker's z = 10 is its middle.
   const double mean = scifi::detail::mean_field_on_axis(scifi::mice_coils(top), tracker, 9.999, 10.001);
   CHECK(mean == Approx(-scifi::field_on_axis(coil_of(100.0, 258.0, 20.0, 6.0), 0.0)).epsilon(1e-8));
+  // The same coil in a frame about the point (1, 2, 3) of the tracker, which is turned about y.
+  const auto seen = scifi::detail::coils_seen_from(scifi::mice_coils(top), tracker, {1.0, 2.0, 3.0});
+  REQUIRE(seen.size() == 1);
+  CHECK((seen[0].centre - scifi::vector<double, 3>(-1.0, -2.0, 10.0 - 3.0)).norm() < 1e-12);
+  CHECK((seen[0].axis - scifi::vector<double, 3>::UnitZ()).norm() < 1e-12);
 }

@@ -8,6 +8,7 @@
 #include <string>
 #include <utility>
 
+#include <scifi/field/coil_field.hpp>
 #include <scifi/geometry/mice.hpp>
 #include <scifi/io/geometry_json.hpp>
 
@@ -251,6 +252,14 @@ TEST_CASE("the geometry of the data taking has the trackers as surveyed", "[io]"
   for (const auto& declared : g.field) CHECK(declared.value() == Approx(4.0 * scifi::units::tesla));
   CHECK(g.coil_field[0].value() / scifi::units::tesla == Approx(-3.9395).epsilon(5e-4));
   CHECK(g.coil_field[1].value() / scifi::units::tesla == Approx(3.9474).epsilon(5e-4));
+  for (std::size_t i = 0; i < 2; ++i) {
+    INFO("tracker " << i);
+    REQUIRE(g.coils.at(i).size() == 12);
+    const scifi::coil_field around(g.coils[i]);
+    double sum = 0.0;
+    for (int k = 0; k < 100; ++k) sum += around(scifi::vector<double, 3>(0.0, 0.0, 1100.0 * (k + 0.5) / 100.0)).z();
+    CHECK(sum / 100.0 == Approx(g.coil_field[i].value()).epsilon(1e-4));
+  }
   CHECK(g.notes.size() == 3);
 }
 
