@@ -26,6 +26,7 @@
 #include "conditions/stored_conditions.hpp"
 #include "field/chosen_field.hpp"
 #include "reconstruct/event_pipeline.hpp"
+#include "reconstruct/monitor.hpp"
 #include "run_program.hpp"
 
 namespace {
@@ -34,6 +35,7 @@ namespace fs = std::filesystem;
 
 struct options {
   stored_conditions stored;
+  monitor watch;
   std::string digits, geometry, output = "tracks.csv", track_points, particle = "mu";
   chosen_field field;
   double min_npe = 2.0, momentum = 200.0;
@@ -60,11 +62,13 @@ void check(const options& o) {
   require(std::isfinite(o.min_npe) && o.min_npe >= 0.0, "--min-npe: not a finite number from 0 on");
   require(std::isfinite(o.momentum) && o.momentum > 0.0, "--momentum: not a finite number above 0");
   require(o.threads >= 0 && o.threads <= 1024, "--threads: not in 0 .. 1024");
-  for (const std::string& out : {o.output, o.track_points}) {
+  for (const std::string& out : {o.output, o.track_points, o.watch.path()}) {
     for (const std::string& in : {o.digits, o.geometry, o.stored.store(), o.field.file()})
       if (!out.empty() && !in.empty() && same_file(in, out)) throw std::invalid_argument(out + ": would overwrite what is read");
   }
   require(o.track_points.empty() || !same_file(o.output, o.track_points), "--output and --track-points: the same file");
+  for (const std::string& out : {o.output, o.track_points})
+    require(o.watch.path().empty() || out.empty() || !same_file(o.watch.path(), out), "--monitor: the same file as another output");
 }
 
 void print_summary(const options& o, const totals& sum, const scifi::particle& hypothesis, int threads, double seconds) {
@@ -109,11 +113,12 @@ void write_tracks(const options& o, const scifi::detector& detector, const scifi
   tracks.write(scifi::track_columns);
   if (points) points->write(scifi::track_point_columns);
 
+  o.watch.start(detector, o.digits);
   const int threads = o.threads > 0 ? o.threads : tbb::info::default_concurrency();
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
   tbb::task_arena arena(threads);
   progress display(source.file().size());
-  const pipeline_result result = arena.execute([&] { return run_pipeline(source, reconstruct, tracks, points, threads, display); });
+  const pipeline_result result = arena.execute([&] { return run_pipeline(source, reconstruct, tracks, points, threads, display, o.watch); });
   display.clear();
   if (result.reading_stopped) {
     try {
@@ -126,6 +131,7 @@ void write_tracks(const options& o, const scifi::detector& detector, const scifi
   // The points first: where the tracks are, everything is.
   if (points) points->commit();
   tracks.commit();
+  o.watch.end("done");
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   print_summary(o, result.sum, hypothesis, threads, seconds);
 }
@@ -175,6 +181,7 @@ int main(int argc, char** argv) {
   app.add_option("--output", o.output, "tracks, CSV")->capture_default_str();
   app.add_option("--track-points", o.track_points, "the tracks at every plane, CSV; not written unless given");
   app.add_option("--threads", o.threads, "number of threads; 0: all cores. The output does not depend on it")->capture_default_str();
+  o.watch.offer(app);
   app.set_version_flag("--version", std::string(scifi::version));
   return run_program("scifi-reconstruct", app, argc, argv, [&o] { run(o); });
 }

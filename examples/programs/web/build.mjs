@@ -11,6 +11,7 @@ async function bundle(entry) {
   const result = await build({
     entryPoints: [join(sources, entry)], bundle: true, minify: true, write: false, format: "iife", target: "es2022", logLevel: "warning",
     legalComments: "inline", nodePaths: [join(process.cwd(), "node_modules")], external: ["node:*"],
+    alias: { "jsroot-modules": join(process.cwd(), "node_modules/jsroot/modules") },  // the parts of it that draw histograms: a tenth of the whole
   });
   return result.outputFiles[0].text;
 }

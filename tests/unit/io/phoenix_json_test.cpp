@@ -25,6 +25,7 @@ scifi::event event_in(int tracker) {
   t.chi2 = 8.0;
   t.ndf = 10;
   t.reference.mean << 1.0, 2.0, 30.0, 40.0, tracker == 0 ? -200.0 : 200.0;
+  t.reference.covariance.setZero();
   t.points = 2;
   e.tracks = {t};
   e.track_points.resize(2);
