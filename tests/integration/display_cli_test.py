@@ -179,7 +179,7 @@ class Display(unittest.TestCase):
         shutil.copy(BIN / "scifi-display", elsewhere)
         result = subprocess.run([elsewhere / "scifi-display", "m_digits.csv"], cwd=self.folder, capture_output=True, text=True, timeout=60)
         self.assertEqual(result.returncode, 3)
-        self.assertIn(f"scripts/web_assets {elsewhere.parent}", result.stderr)
+        self.assertIn(f"scripts/web_assets {elsewhere.parent / 'share/scifi'}", result.stderr)
 
 
 if __name__ == "__main__":

@@ -31,7 +31,7 @@ def what_is_missing():
             return f"{name} is not built"
     for page in ("display.html", "monitor.html"):
         if not (BIN.parent / "share/scifi" / page).exists():
-            return f"no {page}: run scripts/web_assets {BIN.parent}"
+            return f"no {page}: run scripts/web_assets {BIN.parent / 'share/scifi'}"
     if shutil.which("node") is None:
         return "no Node.js"
     if not (PACKAGES / "node_modules/playwright-core").exists():

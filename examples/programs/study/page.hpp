@@ -13,11 +13,13 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "shared_file.hpp"
+
 namespace scifi::study_program {
 
-/// The script that draws, beside the program: SCIFI_SCRIPTS_FROM_BIN is the way to it from the program's folder.
+/// The script that draws.
 [[nodiscard]] inline std::filesystem::path drawing_script() {
-  return (std::filesystem::canonical("/proc/self/exe").parent_path() / SCIFI_SCRIPTS_FROM_BIN / "draw_study.py").lexically_normal();
+  return shared_file("draw_study.py");
 }
 
 /// Runs a program, found on the path, and waits for it. Returns its exit status, or 127 when it could not be started.
