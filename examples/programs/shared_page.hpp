@@ -3,7 +3,7 @@
 
 #include <filesystem>
 #include <fstream>
-#include <iterator>
+#include <sstream>
 #include <stdexcept>
 #include <string>
 
@@ -13,7 +13,9 @@
 [[nodiscard]] inline std::string shared_page(const std::string& name) {
   const std::filesystem::path file = shared_file(name);
   std::ifstream stream(file, std::ios::binary);
-  std::string page((std::istreambuf_iterator<char>(stream)), {});
+  std::ostringstream text;
+  text << stream.rdbuf();
+  std::string page = text.str();
   if (page.empty())
     throw std::runtime_error(file.string() + ": the page to write into is not there; in the sources of scifi run\n    scripts/web_assets " +
                              file.parent_path().string() + "\nwhich needs Node.js and npm and downloads what the page is made of");

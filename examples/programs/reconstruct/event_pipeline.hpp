@@ -61,7 +61,7 @@ struct pipeline_result {
 
 /// Reads blocks of events, reconstructs them on `threads` threads and writes the rows in the order of the input: the bytes written do not
 /// depend on the number of threads. A fixed number of blocks is in memory. When the input turns out bad, the events before it are
-/// still written. Rethrows what goes wrong while writing. `watch` sees every event that is written.
+/// still written. Rethrows what goes wrong while writing. `watch` sees every event.
 template <class Reconstruction>
 [[nodiscard]] pipeline_result run_pipeline(event_source& source, const Reconstruction& reconstruct, scifi::atomic_file& tracks_file,
                                            std::optional<scifi::atomic_file>& points_file, int threads, progress& display, monitor& watch) {
@@ -70,13 +70,11 @@ template <class Reconstruction>
     std::size_t used = 0;
     std::string tracks, points;
     totals sum;
-    monitor::block seen;
   };
   constexpr std::size_t most_events = 256;
   constexpr std::size_t enough_digits = 8192;
   const std::size_t in_flight = 4 * static_cast<std::size_t>(threads);
   std::vector<block> blocks(in_flight);
-  for (block& b : blocks) b.seen = watch.make_block();
   tbb::enumerable_thread_specific<typename Reconstruction::buffers> buffers;
   pipeline_result result;
   std::exception_ptr writing_failed;
@@ -108,7 +106,7 @@ template <class Reconstruction>
     b->tracks.clear();
     b->points.clear();
     b->sum = {};
-    b->seen.clear();
+    monitor::watcher watching = watch.watch();
     for (std::size_t i = 0; i < b->used; ++i) {
       scifi::event& e = b->events[i];
       const auto start = std::chrono::steady_clock::now();
@@ -117,7 +115,7 @@ template <class Reconstruction>
       scifi::append_tracks(b->tracks, e);
       if (points_file) scifi::append_track_points(b->points, e);
       b->sum.count(e);
-      b->seen.add(e);
+      watching.add(e);
     }
     return b;
   };
@@ -132,7 +130,6 @@ template <class Reconstruction>
       return;
     }
     result.sum.add(b->sum);
-    watch.add(b->seen);
     display.update(bytes_read, result.sum.events);
   };
   tbb::parallel_pipeline(in_flight, tbb::make_filter<void, block*>(tbb::filter_mode::serial_in_order, read) &

@@ -19,6 +19,7 @@
 #include <utility>
 
 #include <fmt/format.h>
+#include <oneapi/tbb/enumerable_thread_specific.h>
 
 #include <scifi/io/atomic_file.hpp>
 #include <scifi/io/html_page.hpp>
@@ -27,23 +28,30 @@
 #include "reconstruct/monitor_json.hpp"
 #include "shared_page.hpp"
 
-/// Watches a reconstruction: histograms in a page that is written anew every few seconds, by a thread of its own, and replaced whole. The page takes
+/// Watches a reconstruction: histograms in a page that is written anew every few seconds, by a thread of its own, and replaced whole. Every thread fills its own histograms. The page takes
 /// the new histograms over by itself. A page that cannot be written any more is reported once and does not stop the reconstruction.
 class monitor {
  public:
-  /// Histograms of a block of events, filled by the thread that has the block.
-  class block {
+  /// Histograms of a thread, and who may touch them.
+  struct of_thread {
+    explicit of_thread(const scifi::detector& d) : seen(d) {}
+    of_thread(const of_thread& other) : seen(other.seen) {}
+    std::mutex mutex;
+    scifi::study::monitor_histograms seen;
+  };
+  /// The calling thread's, held as long as this lives: for a block of events.
+  class watcher {
    public:
-    void clear() {
-      if (seen_) seen_->clear();
+    explicit watcher(of_thread* where) : where_(where) {
+      if (where_ != nullptr) lock_ = std::unique_lock(where_->mutex);
     }
     void add(const scifi::event& e) {
-      if (seen_) seen_->add(e);
+      if (where_ != nullptr) where_->seen.add(e);
     }
 
    private:
-    friend class monitor;
-    std::optional<scifi::study::monitor_histograms> seen_;
+    of_thread* where_;
+    std::unique_lock<std::mutex> lock_;
   };
 
   monitor() = default;
@@ -58,29 +66,19 @@ class monitor {
   }
   [[nodiscard]] const std::string& path() const { return path_; }
 
-  /// Writes the first page; nothing without --monitor. Throws std::runtime_error when the page to write into is not
-  /// installed, scifi::input_error when it cannot be written.
+  /// Writes the first page; nothing without --monitor. Throws std::runtime_error when the page to write into is not installed, scifi::input_error when
+  /// it cannot be written.
   void start(const scifi::detector& d, std::string input) {
     if (path_.empty()) return;
     page_ = shared_page("monitor.html");
     detector_ = d;
     input_ = std::move(input);
-    sum_.emplace(d);
+    threads_.emplace([this] { return of_thread(*detector_); });
     write("running");
     writer_ = std::thread([this] { keep_writing(); });
   }
 
-  [[nodiscard]] block make_block() const {
-    block out;
-    if (detector_) out.seen_.emplace(*detector_);
-    return out;
-  }
-  /// Takes over what a block has seen.
-  void add(const block& b) {
-    if (!b.seen_) return;
-    const std::scoped_lock lock(mutex_);
-    *sum_ += *b.seen_;
-  }
+  [[nodiscard]] watcher watch() { return watcher(detector_ ? &threads_->local() : nullptr); }
 
   /// Writes the last page. Later calls do nothing.
   void end(const std::string& state) {
@@ -117,9 +115,11 @@ class monitor {
   }
 
   void write(const std::string& state) {
-    std::unique_lock lock(mutex_);
-    const scifi::study::monitor_histograms seen = *sum_;
-    lock.unlock();
+    scifi::study::monitor_histograms seen(*detector_);
+    for (of_thread& t : *threads_) {
+      const std::scoped_lock lock(t.mutex);
+      seen += t.seen;
+    }
     const double elapsed = std::chrono::duration<double>(clock::now() - begin_).count();
     const double now = std::chrono::duration<double>(std::chrono::system_clock::now().time_since_epoch()).count();
     const monitor_json::json status = {{"state", state},     {"input", input_},      {"events", seen.events()}, {"elapsed_s", elapsed},
@@ -135,8 +135,8 @@ class monitor {
   clock::time_point begin_ = clock::now();
   std::mutex mutex_;
   std::condition_variable wake_;
-  std::optional<scifi::study::monitor_histograms> sum_;  // under the mutex, as is ended_
-  bool ended_ = false;
+  std::optional<tbb::enumerable_thread_specific<of_thread>> threads_;
+  bool ended_ = false;   // under the mutex
   bool failed_ = false;  // of the thread that writes
   long pages_ = 0;
   std::thread writer_;
@@ -145,15 +145,13 @@ class monitor {
 /// Without scifi::study there is nothing to watch with.
 class monitor {
  public:
-  struct block {
-    void clear() {}
+  struct watcher {
     void add(const scifi::event&) {}
   };
   void offer(CLI::App&) {}
   [[nodiscard]] std::string path() const { return {}; }
   void start(const scifi::detector&, const std::string&) {}
-  [[nodiscard]] block make_block() const { return {}; }
-  void add(const block&) {}
+  [[nodiscard]] watcher watch() { return {}; }
   void end(const std::string&) {}
 };
 #endif

@@ -95,7 +95,8 @@ class tracker_histograms {
         if (found == planes.end()) continue;
         of = &*found;
       }
-      of->channels(static_cast<double>(d.id.channel));
+      // A channel is a bin: no need to look for it.
+      if (d.id.channel >= 0 && d.id.channel < of->channels.axis().size()) of->channels.at(d.id.channel) += 1.0;
     }
   }
 
