@@ -104,7 +104,7 @@ void keep_partial(scifi::atomic_file& tracks, std::optional<scifi::atomic_file>&
 }
 
 template <class Reconstruction>
-void write_tracks(const options& o, const scifi::detector& detector, const scifi::particle& hypothesis, std::chrono::steady_clock::time_point start,
+void write_tracks(options& o, const scifi::detector& detector, const scifi::particle& hypothesis, std::chrono::steady_clock::time_point start,
                   const Reconstruction& reconstruct) {
   event_source source(o.digits, detector);
   scifi::atomic_file tracks(o.output);
