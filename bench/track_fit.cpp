@@ -4,11 +4,14 @@
 
 #include <benchmark/benchmark.h>
 
+#include <array>
 #include <cmath>
 #include <cstdio>
-#include <optional>
+#include <memory>
 #include <random>
 #include <string>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 #include <scifi/candidate_to_track/track_fitter.hpp>
@@ -28,26 +31,9 @@ using scifi::slope_state;
 constexpr double field = 3.0 * scifi::units::tesla;
 constexpr int tracks = 64;
 
-/// A step is a pointer to a leg here: sites that do not copy their legs.
-template <class Model>
-struct along_legs {
-  using state_space = slope_state;
-  Model model;
-  template <class Scalar>
-  [[nodiscard]] auto propagate(const scifi::vector<Scalar, 5>& x, const scifi::leg* step) const { return model.propagate(x, *step); }
-  template <class Scalar>
-  [[nodiscard]] auto covariance(const scifi::vector<Scalar, 5>& x, const scifi::leg* step, const kalman::propagated<Scalar, 5>& moved) const { return model.covariance(x, *step, moved); }
-};
-
-struct site {
-  const scifi::leg* step;
-  std::optional<scifi::fibre_measurement<slope_state>> measurement;
-};
-
-/// One simulated track in the forms that the benchmarks need.
+/// One simulated track, as pattern recognition would hand it on.
 struct simulated {
   scifi::vector<double, 5> at_reference, seed;
-  std::vector<site> sites;
   scifi::candidate candidate;
   std::vector<scifi::space_point> points;
   std::vector<scifi::cluster> clusters;
@@ -72,10 +58,7 @@ struct sample {
       s.candidate.tracker = tracker.id;
       s.candidate.z = far;
       s.candidate.seed.mean = s.seed;
-      for (std::size_t i = 0; i <= path.surfaces.size(); ++i) {
-        s.sites.push_back({&path.legs[i], std::nullopt});
-        if (i == path.surfaces.size()) break;
-        const scifi::surface& at = path.surfaces[i];
+      for (const scifi::surface& at : path.surfaces) {
         const scifi::vector<double, 5> x = fly.propagate(s.at_reference, at.z - path.z_reference).state;
         scifi::cluster hit;
         hit.tracker = tracker.id;
@@ -83,7 +66,6 @@ struct sample {
         hit.plane = at.plane;
         hit.alpha = at.tracker_to_alpha(x[slope_state::x], x[slope_state::y]) + sigma * normal(engine);
         hit.variance = sigma * sigma;
-        s.sites.back().measurement = scifi::fibre_measurement<slope_state>{hit.alpha, hit.variance, at.cos_angle, at.sin_angle, at.offset};
         if (s.points.empty() || s.points.back().station != hit.station) {
           s.candidate.space_points.push_back(static_cast<int>(s.points.size()));
           s.points.emplace_back();
@@ -102,62 +84,94 @@ const sample& given() {
   return s;
 }
 
-struct with_material {
-  static constexpr const char* name = "material";
-  static auto filter() {
-    using namespace scifi;
-    const double layers = 5.0;
-    const energy_loss_propagator fly{helix_propagator{field}, median_energy_loss{layers}, muon_plus, given().tracker.beam_direction};
-    const material_noise noise{highland_scattering{}, landau_straggling{layers}, muon_plus};
-    return kalman::filter{along_legs<decltype(fly)>{fly}, along_legs<decltype(noise)>{noise}};
+template <class EnergyLoss, class Scattering, class Straggling>
+struct policies {
+  EnergyLoss loss;
+  Scattering scattering;
+  Straggling straggling;
+  using leg = scifi::prepared_leg<EnergyLoss, Scattering, Straggling>;
+
+  [[nodiscard]] auto filter() const {
+    const scifi::energy_loss_propagator fly{scifi::helix_propagator{field}, loss, scifi::muon_plus, given().tracker.beam_direction};
+    return kalman::filter{fly, scifi::material_noise{scattering, straggling, scifi::muon_plus}, kalman::symmetric_form{}};
   }
-  static auto fitter(const scifi::track_fit_options& o) {
-    using namespace scifi;
-    return track_fitter(given().tracker, o, muon_plus, median_energy_loss{5.0}, highland_scattering{}, landau_straggling{5.0});
+  [[nodiscard]] std::vector<leg> legs() const {
+    std::vector<leg> out;
+    for (const scifi::leg& l : given().path.legs) out.emplace_back(l, loss, scattering, straggling, scifi::muon_plus);
+    return out;
+  }
+  [[nodiscard]] auto fitter() const {
+    scifi::track_fit_options o;
+    o.field = field;
+    o.passes = 1;
+    return scifi::track_fitter(given().tracker, o, scifi::muon_plus, loss, scattering, straggling);
   }
 };
-
-struct without_material {
-  static constexpr const char* name = "vacuum";
-  static auto filter() {
-    using namespace scifi;
-    const energy_loss_propagator fly{helix_propagator{field}, no_energy_loss{}, muon_plus, given().tracker.beam_direction};
-    const material_noise noise{no_scattering{}, no_straggling{}, muon_plus};
-    return kalman::filter{along_legs<decltype(fly)>{fly}, along_legs<decltype(noise)>{noise}};
-  }
-  static auto fitter(const scifi::track_fit_options& o) {
-    using namespace scifi;
-    return track_fitter(given().tracker, o, muon_plus, no_energy_loss{}, no_scattering{}, no_straggling{});
-  }
-};
-
-kalman::estimate<double, 5> start_of(const simulated& s) {
-  return kalman::uncorrelated(s.seed, scifi::vector<double, 5>{50.0, 0.5, 50.0, 0.5, 0.004});
-}
+const policies<scifi::median_energy_loss, scifi::highland_scattering, scifi::landau_straggling> material{{5.0}, {}, {5.0}};
+const policies<scifi::no_energy_loss, scifi::no_scattering, scifi::no_straggling> vacuum{};
 
 struct no_smoother {};
 
-/// One pass over all tracks: linearised along the flight of the seed. Returns the sum of chi2.
-template <class Smoother, class Filter, class Nodes, class References>
-double fit_all(const Filter& filter, Nodes& nodes, References& references) {
-  double sum = 0.0;
-  for (const simulated& s : given().tracks) {
-    const auto start = start_of(s);
-    if constexpr (std::is_same_v<Smoother, no_smoother>) {
-      references[0] = s.seed;
-      const auto result = filter.run(start, s.sites, nodes, kalman::detail::flown_references<References>{references});
-      if (!result.status.ok()) return std::nan("");
-      sum += result.chi2;
-    } else {
-      const auto result = kalman::run_relinearised(filter, start, s.seed, s.sites, nodes, references, 1, kalman::detail::never_settled{}, Smoother{});
-      if (!result.status.ok()) return std::nan("");
-      sum += result.chi2;
+/// All tracks, one in each lane of Scalar, with their measurements laid out and linearised along the flight of their seeds.
+template <class Scalar, class Policies>
+class fits {
+  using leg = typename Policies::leg;
+  static constexpr std::size_t width = static_cast<std::size_t>(scifi::lane_count<Scalar>);
+
+ public:
+  explicit fits(const Policies& p) : filter_(p.filter()), legs_(p.legs()), nodes_(legs_.size()), references_(legs_.size() + 1) {
+    for (std::size_t first = 0; first < tracks; first += width) {
+      group g;
+      std::array<scifi::fit_job, width> jobs;
+      for (std::size_t lane = 0; lane < width; ++lane) {
+        const simulated& s = given().tracks[first + lane];
+        jobs[lane] = {&s.candidate, 0, s.points, s.clusters};
+        for (int i = 0; i < 5; ++i) scifi::set_lane(g.seed[i], static_cast<int>(lane), s.seed[i]);
+      }
+      scifi::set_stops(given().path, legs_, jobs, g.memory);
+      g.start = {g.seed, scifi::matrix<Scalar, 5, 5>::Zero()};
+      const scifi::vector<double, 5> sigmas{50.0, 0.5, 50.0, 0.5, 0.004};
+      for (int i = 0; i < 5; ++i) g.start.covariance(i, i) = Scalar(sigmas[i] * sigmas[i]);
+      groups_.push_back(std::move(g));
     }
-    benchmark::DoNotOptimize(nodes.data());
-    benchmark::ClobberMemory();
   }
-  return sum;
-}
+
+  /// One pass over all tracks, `see` called after each group. Returns the sum of chi2.
+  template <class Smoother, class See>
+  double run(const See& see) {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < groups_.size(); ++i) {
+      const group& g = groups_[i];
+      references_[0] = g.seed;
+      auto result = filter_.run(g.start, g.memory.stops, nodes_, kalman::detail::flown_references<decltype(references_)>{references_});
+      if constexpr (!std::is_same_v<Smoother, no_smoother>) {
+        if (result.status.ok()) result.status = kalman::smooth(nodes_, Smoother{});
+      }
+      if (!result.status.ok()) return std::nan("");
+      for (std::size_t lane = 0; lane < width; ++lane) sum += static_cast<double>(scifi::lane_of(result.chi2, static_cast<int>(lane)));
+      see(i, nodes_);
+      benchmark::DoNotOptimize(nodes_.data());
+      benchmark::ClobberMemory();
+    }
+    return sum;
+  }
+  template <class Smoother>
+  double run() {
+    return run<Smoother>([](std::size_t, const auto&) {});
+  }
+
+ private:
+  struct group {
+    scifi::vector<Scalar, 5> seed;
+    kalman::estimate<Scalar, 5> start;
+    scifi::fit_memory<slope_state, Scalar, leg> memory;
+  };
+  std::vector<group> groups_;
+  decltype(std::declval<const Policies&>().filter()) filter_;
+  std::vector<leg> legs_;
+  std::vector<kalman::node<Scalar, 5, 1>> nodes_;
+  std::vector<scifi::vector<Scalar, 5>> references_;
+};
 
 bool all_right = true;
 
@@ -172,65 +186,88 @@ void add(const std::string& name, Run run) {
   const double sum = run();
   check(std::isfinite(sum), name + ": a fit failed");
   benchmark::RegisterBenchmark(name.c_str(), [run](benchmark::State& state) mutable {
+    double sum_of_run = 0.0;
     for (auto _ : state) {
-      double sum_of_run = run();
+      sum_of_run = run();
       benchmark::DoNotOptimize(sum_of_run);
     }
+    if (!std::isfinite(sum_of_run)) state.SkipWithError("a fit failed");
     state.counters["ns"] = benchmark::Counter(static_cast<double>(state.iterations()) * tracks * 1e-9, benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
   });
 }
 
-using nodes_type = std::vector<kalman::node<double, 5, 1>>;
-using references_type = std::vector<scifi::vector<double, 5>>;
-
-template <class Material, class Smoother>
-void add_fit(const std::string& name) {
-  add(name + "/" + Material::name, [filter = Material::filter(), nodes = nodes_type(given().path.legs.size()), references = references_type(given().path.legs.size() + 1)]() mutable {
-    return fit_all<Smoother>(filter, nodes, references);
-  });
+template <class Smoother, class Scalar, class Policies>
+void add_fit(const std::string& name, const Policies& p) {
+  add(name, [all = std::make_shared<fits<Scalar, Policies>>(p)] { return all->template run<Smoother>(); });  // not copied: its stops point to its legs
 }
 
-template <class Material>
-void add_stage() {
-  scifi::track_fit_options o;
-  o.field = field;
-  o.passes = 1;
-  add(std::string("stage/") + Material::name, [fit = Material::fitter(o), fitted = std::vector<scifi::track>(), points = std::vector<scifi::track_point>(),
-                                               work = typename decltype(Material::fitter(o))::buffers()]() mutable {
+/// The whole stage, one track after another or in lanes.
+template <class Policies>
+void add_stage(const std::string& medium, const Policies& p) {
+  using fitter = decltype(p.fitter());
+  std::vector<scifi::fit_job> jobs;
+  for (const simulated& s : given().tracks) jobs.push_back({&s.candidate, 0, s.points, s.clusters});
+  const auto sum_of = [](const std::vector<scifi::fitted_track>& fitted) {
     double sum = 0.0;
-    for (const simulated& s : given().tracks) {
-      fitted.clear();
-      points.clear();
-      fit(s.candidate, 0, s.points, s.clusters, fitted, points, work);
-      if (!fitted[0].status.ok() || fitted[0].points != 15) return std::nan("");
-      sum += fitted[0].chi2;
+    for (const scifi::fitted_track& f : fitted) {
+      if (!f.summary.status.ok() || f.summary.points != 15) return std::nan("");
+      sum += f.summary.chi2;
+    }
+    return sum;
+  };
+  add("stage/" + medium, [=, fit = p.fitter(), fitted = std::vector<scifi::track>(), points = std::vector<scifi::track_point>(), work = typename fitter::buffers()]() mutable {
+    fitted.clear();
+    points.clear();
+    double sum = 0.0;
+    for (const scifi::fit_job& j : jobs) {
+      fit(*j.from, 0, j.points, j.clusters, fitted, points, work);
+      if (!fitted.back().status.ok() || fitted.back().points != 15) return std::nan("");
+      sum += fitted.back().chi2;
     }
     return sum;
   });
+  add("stage_lanes/" + medium, [=, fit = p.fitter(), fitted = std::vector<scifi::fitted_track>(), work = typename fitter::buffers()]() mutable {
+    fit.fit_batch(jobs, fitted, work);
+    return sum_of(fitted);
+  });
 }
 
-/// The fit without material must find the helices that were drawn: chi2 with ten degrees of freedom, pulls of unit width.
+template <class Policies>
+void add_all(const std::string& medium, const Policies& p) {
+  using numbers = scifi::pack<double>;
+  using floats = scifi::pack<float>;
+  const double alone = fits<double, Policies>(p).template run<no_smoother>();
+  const double in_lanes = fits<numbers, Policies>(p).template run<no_smoother>();
+  const double in_floats = fits<floats, Policies>(p).template run<no_smoother>();
+  check(std::abs(in_lanes - alone) < 1e-10 * alone, medium + ": lanes of double differ from single tracks");
+  check(std::abs(in_floats - alone) < 5e-3 * alone, medium + ": lanes of float differ from single tracks");
+  add_fit<no_smoother, double>("filter/" + medium, p);
+  add_fit<kalman::rauch_tung_striebel, double>("filter_rts/" + medium, p);
+  add_fit<kalman::modified_bryson_frazier, double>("filter_mbf/" + medium, p);
+  add_fit<no_smoother, numbers>("filter_lanes/" + medium, p);
+  add_fit<kalman::modified_bryson_frazier, numbers>("filter_mbf_lanes/" + medium, p);
+  add_fit<no_smoother, floats>("filter_floats/" + medium, p);
+  add_fit<kalman::modified_bryson_frazier, floats>("filter_mbf_floats/" + medium, p);
+  add_stage(medium, p);
+}
+
+/// The fit without material must find the helices that were drawn: chi2 with ten degrees of freedom, errors that cover the truth.
 void check_fits() {
-  const auto filter = without_material::filter();
-  nodes_type nodes(given().path.legs.size());
-  references_type references(given().path.legs.size() + 1);
-  const double mean = fit_all<kalman::rauch_tung_striebel>(filter, nodes, references) / tracks;
-  constexpr double ndf = 10.0;
-  check(std::abs(mean - ndf) < 4.0 * std::sqrt(2.0 * ndf / tracks), "mean chi2 is " + std::to_string(mean) + ", not 10");
+  fits<double, decltype(vacuum)> all(vacuum);
   double worst = 0.0;
-  for (const simulated& s : given().tracks) {
-    const auto start = start_of(s);
-    static_cast<void>(kalman::run_relinearised(filter, start, s.seed, s.sites, nodes, references, 1));
+  const double mean = all.run<kalman::rauch_tung_striebel>([&worst](std::size_t track, const auto& nodes) {
     const kalman::estimate<double, 5> last = nodes.back().smoothed;
-    for (int i = 0; i < 5; ++i) check(std::abs(last.mean(i) - s.at_reference(i)) < 6.0 * kalman::sigma(last, i), "a fitted track is not the one drawn");
-    nodes_type other = nodes;
+    for (int i = 0; i < 5; ++i) check(std::abs(last.mean(i) - given().tracks[track].at_reference(i)) < 6.0 * kalman::sigma(last, i), "a fitted track is not the one drawn");
+    auto other = nodes;
     static_cast<void>(kalman::smooth(other, kalman::modified_bryson_frazier{}));
     for (std::size_t k = 0; k < nodes.size(); ++k)
       for (int i = 0; i < 5; ++i) {
         const double sigma = kalman::sigma(nodes[k].smoothed, i);
         worst = std::max({worst, std::abs(other[k].smoothed.mean(i) - nodes[k].smoothed.mean(i)) / sigma, std::abs(kalman::sigma(other[k].smoothed, i) / sigma - 1.0)});
       }
-  }
+  }) / tracks;
+  constexpr double ndf = 10.0;
+  check(std::abs(mean - ndf) < 4.0 * std::sqrt(2.0 * ndf / tracks), "mean chi2 is " + std::to_string(mean) + ", not 10");
   std::printf("smoothers differ by at most %.1e standard deviations\n", worst);
   check(worst < 1e-3, "the smoothers differ");
 }
@@ -266,14 +303,8 @@ void textbook_unit(benchmark::State& state) {
 int main(int argc, char** argv) {
   check_fits();
   benchmark::RegisterBenchmark("textbook", textbook_unit);
-  add_fit<without_material, no_smoother>("filter");
-  add_fit<without_material, kalman::rauch_tung_striebel>("filter_rts");
-  add_fit<without_material, kalman::modified_bryson_frazier>("filter_mbf");
-  add_stage<without_material>();
-  add_fit<with_material, no_smoother>("filter");
-  add_fit<with_material, kalman::rauch_tung_striebel>("filter_rts");
-  add_fit<with_material, kalman::modified_bryson_frazier>("filter_mbf");
-  add_stage<with_material>();
+  add_all("vacuum", vacuum);
+  add_all("material", material);
   if (!all_right) return 1;
   benchmark::Initialize(&argc, argv);
   if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 1;

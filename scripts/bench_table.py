@@ -22,7 +22,12 @@ FIT_FORMS = {
     "filter": "filter",
     "filter_rts": "filter, Rauch-Tung-Striebel smoother",
     "filter_mbf": "filter, Bryson-Frazier smoother",
+    "filter_lanes": "filter, one track a lane, double",
+    "filter_mbf_lanes": "  and Bryson-Frazier smoother",
+    "filter_floats": "filter, one track a lane, float",
+    "filter_mbf_floats": "  and Bryson-Frazier smoother",
     "stage": "candidates to tracks, with residuals",
+    "stage_lanes": "  one track a lane, double",
 }
 
 

@@ -48,7 +48,7 @@ THIRD_PARTY = {"io": EIGEN + ("nlohmann/", "zlib.h", "fcntl.h", "unistd.h"),
                "conditions": EIGEN + ("sqlite3.h",),
                "study": EIGEN + ("boost/histogram/",)}
 # headers of the standard library with a slash or a suffix in their name
-STANDARD = ("experimental/simd",)
+STANDARD = ("experimental/simd", "immintrin.h")
 
 LONGEST_HEADER = 250
 SPDX = "SPDX-License-Identifier: MPL-2.0"

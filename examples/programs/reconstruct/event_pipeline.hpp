@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <exception>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -107,11 +108,11 @@ template <class Reconstruction>
     b->points.clear();
     b->sum = {};
     monitor::watcher watching = watch.watch();
-    for (std::size_t i = 0; i < b->used; ++i) {
-      scifi::event& e = b->events[i];
-      const auto start = std::chrono::steady_clock::now();
-      reconstruct(e, buffers.local());
-      b->sum.reconstruction += std::chrono::steady_clock::now() - start;
+    const std::span events(b->events.data(), b->used);
+    const auto start = std::chrono::steady_clock::now();
+    reconstruct(events, buffers.local());
+    b->sum.reconstruction += std::chrono::steady_clock::now() - start;
+    for (const scifi::event& e : events) {
       scifi::append_tracks(b->tracks, e);
       if (points_file) scifi::append_track_points(b->points, e);
       b->sum.count(e);

@@ -1,32 +1,35 @@
 // SPDX-License-Identifier: MPL-2.0
 #pragma once
 
-#include <algorithm>
-#include <cmath>
+#include <array>
 #include <concepts>
 #include <cstddef>
-#include <functional>
-#include <limits>
-#include <optional>
 #include <span>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
+#include <scifi/candidate_to_track/fit_memory.hpp>
 #include <scifi/candidate_to_track/fit_path.hpp>
-#include <scifi/core/chi_squared.hpp>
+#include <scifi/candidate_to_track/fit_stops.hpp>
+#include <scifi/candidate_to_track/write_track.hpp>
+#include <scifi/core/lane.hpp>
+#include <scifi/core/pack_math.hpp>
 #include <scifi/event/candidate.hpp>
 #include <scifi/event/cluster.hpp>
 #include <scifi/event/space_point.hpp>
 #include <scifi/event/track.hpp>
-#include <scifi/kalman/node_residual.hpp>
+#include <scifi/kalman/bryson_frazier.hpp>
 #include <scifi/kalman/relinearised.hpp>
 #include <scifi/kalman/site.hpp>
+#include <scifi/kalman/symmetric_form.hpp>
 #include <scifi/track_model/conversions.hpp>
 #include <scifi/track_model/energy_loss_propagator.hpp>
 #include <scifi/track_model/fibre_measurement.hpp>
 #include <scifi/track_model/helix_propagator.hpp>
 #include <scifi/track_model/line_propagator.hpp>
 #include <scifi/track_model/material_noise.hpp>
+#include <scifi/track_model/prepared_leg.hpp>
 #include <scifi/track_model/q_over_pz_prior.hpp>
 
 namespace scifi {
@@ -45,12 +48,16 @@ struct track_fit_options {
 /// Candidates to tracks: a Kalman filter over their clusters, one coordinate each, from the last station to the reference surface at station 1, and a smoother.
 ///
 /// All material and the policies given act between the surfaces. Linearised about a reference track, so that the first, badly known slopes do no harm.
-/// `Flight` carries a bent track in vacuum: the helix of `options.field`, or a nystrom_propagator in any field. Const, shared between threads.
-template <class EnergyLoss, class Scattering, class Straggling, class Update = kalman::joseph, class Gate = kalman::no_gate, class Flight = helix_propagator>
+/// `Flight` carries a bent track in vacuum: the helix of `options.field`, or a nystrom_propagator in any field. `fit_batch` fits many at once, one in
+/// each SIMD lane. Const, shared between threads.
+template <class EnergyLoss, class Scattering, class Straggling, class Update = kalman::symmetric_form, class Gate = kalman::no_gate, class Flight = helix_propagator>
 class track_fitter {
  public:
   using helix_filter = kalman::filter<energy_loss_propagator<Flight, EnergyLoss>, material_noise<Scattering, Straggling>, Update, Gate>;
   using line_filter = kalman::filter<leg_propagator<line_propagator>, line_material_noise<Scattering>, Update, Gate>;
+  using helix_leg = prepared_leg<EnergyLoss, Scattering, Straggling>;
+  /// The numbers of a batch: one track a lane.
+  using lanes = pack<double>;
 
   track_fitter(const tracker& where, const track_fit_options& options, const particle& hypothesis, EnergyLoss loss, Scattering scattering, Straggling straggling,
                Update update = {}, Gate gate = {})
@@ -64,146 +71,134 @@ class track_fitter {
         travel_(where.beam_direction),
         path_(fit_path_of(where)),
         helix_({flight, loss, hypothesis, where.beam_direction}, {scattering, straggling, hypothesis}, update, gate),
-        line_({{}}, {scattering, hypothesis, options.line_momentum}, update, gate) {}
-
-  /// One surface of the way and what was measured there.
-  template <class StateSpace>
-  struct stop {
-    std::optional<std::reference_wrapper<const leg>> step;
-    std::optional<fibre_measurement<StateSpace>> measurement;
-  };
-
-  /// Working memory of one state space.
-  template <class StateSpace>
-  struct lane {
-    std::vector<stop<StateSpace>> stops;
-    std::vector<kalman::node<double, StateSpace::dimension, 1>> nodes;
-    std::vector<vector<double, StateSpace::dimension>> references;
-  };
+        line_({{}}, {scattering, hypothesis, options.line_momentum}, update, gate) {
+    for (const leg& l : path_.legs) helix_legs_.emplace_back(l, loss, scattering, straggling, hypothesis);
+  }
 
   /// Working memory, to be handed in again.
   struct buffers {
-    lane<slope_state> helix;
-    lane<line_state> line;
-    std::vector<int> cluster_at;  // per surface, -1: none
+    fit_memory<slope_state, double, helix_leg> helix;
+    fit_memory<slope_state, lanes, helix_leg> helices;
+    fit_memory<line_state, double, leg> line;
+    fitted_track one;
+    std::vector<std::size_t> in_lanes;
   };
 
   /// Fits one candidate; appends its track and its track points. A failed fit is appended too, with its status and no points.
   void operator()(const candidate& c, int candidate_index, std::span<const space_point> points, std::span<const cluster> clusters, std::vector<track>& tracks,
                   std::vector<track_point>& track_points, buffers& work) const {
-    assign(c, points, clusters, work.cluster_at);
-    track t;
-    t.tracker = c.tracker;
-    t.candidate = candidate_index;
-    t.shape = c.shape;
-    t.z = path_.z_reference;
-    t.first_point = static_cast<int>(track_points.size());
-    const double dz = path_.surfaces.front().z - c.z;
-    const vector<double, 5> seed = helix_propagator{c.shape == track_shape::helix ? options_.field : 0.0}.propagate(c.seed.mean, dz).state;
-    const double k = seed[slope_state::q_over_pz];
+    fit_one({&c, candidate_index, points, clusters}, work.one, work);
+    append(work.one, tracks, track_points);
+  }
 
-    if (c.shape == track_shape::helix) {
-      kalman::estimate<double, 5> start = wide<slope_state>(seed);
-      start.mean[slope_state::q_over_pz] = std::copysign(options_.prior.typical, k);
-      start.covariance(slope_state::q_over_pz, slope_state::q_over_pz) = options_.prior.spread * options_.prior.spread;
-      fit<slope_state>(helix_, start, seed, clusters, t, track_points, work.helix, work.cluster_at, [](const auto& e) { return e; });
-    } else {
-      const vector<double, 4> line = slopes_to_line(seed).state;
-      fit<line_state>(line_, wide<line_state>(line), line, clusters, t, track_points, work.line, work.cluster_at,
-                      [k](const auto& e) { return convert(e, [k](const vector<double, 4>& x) { return line_to_slopes(x, k); }); });
+  /// Fits candidates of any events; out[i] becomes the track of jobs[i], as one fitted alone up to rounding, with `first_point` left zero. `out` grows if need be.
+  ///
+  /// Bent ones go in packs as wide as the machine's vectors; straight ones, what is left over and any that fails in its lane are fitted one by one.
+  void fit_batch(std::span<const fit_job> jobs, std::vector<fitted_track>& out, buffers& work) const {
+    if (out.size() < jobs.size()) out.resize(jobs.size());
+    work.in_lanes.clear();
+    for (std::size_t i = 0; i < jobs.size(); ++i) {
+      if (lanes_agree && jobs[i].from->shape == track_shape::helix) work.in_lanes.push_back(i);
+      else fit_one(jobs[i], out[i], work);
     }
-    tracks.push_back(t);
+    constexpr std::size_t width = static_cast<std::size_t>(lanes::lanes);
+    std::size_t done = 0;
+    if constexpr (lanes_agree) {
+      for (; done + width <= work.in_lanes.size(); done += width) {
+        std::array<fit_job, width> together;
+        std::array<fitted_track*, width> fitted;
+        for (std::size_t lane = 0; lane < width; ++lane) {
+          together[lane] = jobs[work.in_lanes[done + lane]];
+          fitted[lane] = &out[work.in_lanes[done + lane]];
+        }
+        fit_helices(together, fitted, work.helices);
+        for (std::size_t lane = 0; lane < width; ++lane)
+          if (!fitted[lane]->summary.status.ok()) fit_one(together[lane], *fitted[lane], work);
+      }
+    }
+    for (; done < work.in_lanes.size(); ++done) fit_one(jobs[work.in_lanes[done]], out[work.in_lanes[done]], work);
   }
 
  private:
-  /// Which cluster stands at which surface.
-  void assign(const candidate& c, std::span<const space_point> points, std::span<const cluster> clusters, std::vector<int>& cluster_at) const {
-    cluster_at.assign(path_.surfaces.size(), -1);
-    for (const int point : c.space_points) {
-      for (const int member : points[static_cast<std::size_t>(point)].clusters) {
-        const cluster& hit = clusters[static_cast<std::size_t>(member)];
-        for (std::size_t i = 0; i < path_.surfaces.size(); ++i)
-          if (path_.surfaces[i].station == hit.station && path_.surfaces[i].plane == hit.plane) cluster_at[i] = member;
-      }
+  /// A flight that chooses its steps would choose them for all lanes together, and a track would depend on its neighbours.
+  static constexpr bool lanes_agree = std::same_as<Flight, helix_propagator>;
+
+  void fit_one(const fit_job& job, fitted_track& out, buffers& work) const {
+    if (job.from->shape == track_shape::helix) return fit_helices(std::array{job}, std::array{&out}, work.helix);
+    const vector<double, 5> seed = seed_of(*job.from);
+    const vector<double, 4> line = slopes_to_line(seed).state;
+    const double k = seed[slope_state::q_over_pz];
+    fit(line_, path_.legs, wide<line_state>(line), line, std::array{job}, std::array{&out}, work.line, [](const auto&, const auto&) { return true; },  // a line is linear
+        [k](const auto& e) { return convert(e, [k](const vector<double, 4>& x) { return line_to_slopes(x, k); }); });
+  }
+
+  template <std::size_t Width, class Scalar>
+  void fit_helices(const std::array<fit_job, Width>& jobs, const std::array<fitted_track*, Width>& out, fit_memory<slope_state, Scalar, helix_leg>& work) const {
+    constexpr int k = slope_state::q_over_pz;
+    vector<Scalar, 5> seed;
+    kalman::estimate<Scalar, 5> start;
+    for (std::size_t lane = 0; lane < Width; ++lane) {
+      const vector<double, 5> one = seed_of(*jobs[lane].from);
+      for (int i = 0; i < 5; ++i) set_lane(seed[i], static_cast<int>(lane), one[i]);
     }
+    start = wide<slope_state>(seed);
+    start.mean[k] = select(seed[k] < Scalar(0.0), Scalar(-options_.prior.typical), Scalar(options_.prior.typical));
+    start.covariance(k, k) = Scalar(options_.prior.spread * options_.prior.spread);
+    const auto settled = [this](const auto& reference, const auto& smoothed) {
+      const Scalar share = Scalar(options_.settled) * magnitude(reference[k]);
+      return magnitude(Scalar(smoothed.mean[k] - reference[k])) <= share && kalman::sigma(smoothed, k) <= Scalar(2.0) * share;
+    };
+    fit(helix_, helix_legs_, start, seed, jobs, out, work, settled, [](const auto& e) { return e; });
+  }
+
+  /// The seed flown to the last surface.
+  [[nodiscard]] vector<double, 5> seed_of(const candidate& c) const {
+    return helix_propagator{c.shape == track_shape::helix ? options_.field : 0.0}.propagate(c.seed.mean, path_.surfaces.front().z - c.z).state;
   }
 
   /// The seed as a mean, with a covariance that leaves everything to the data.
-  template <class StateSpace, int N = StateSpace::dimension>
-  [[nodiscard]] kalman::estimate<double, N> wide(const vector<double, N>& seed) const {
-    kalman::estimate<double, N> e{seed, matrix<double, N, N>::Zero()};
-    for (const int i : {StateSpace::x, StateSpace::y}) e.covariance(i, i) = options_.position_spread * options_.position_spread;
-    for (const int i : {StateSpace::tx, StateSpace::ty}) e.covariance(i, i) = options_.slope_spread * options_.slope_spread;
+  template <class StateSpace, class Scalar, int N = StateSpace::dimension>
+  [[nodiscard]] kalman::estimate<Scalar, N> wide(const vector<Scalar, N>& seed) const {
+    kalman::estimate<Scalar, N> e{seed, matrix<Scalar, N, N>::Zero()};
+    for (const int i : {StateSpace::x, StateSpace::y}) e.covariance(i, i) = Scalar(options_.position_spread * options_.position_spread);
+    for (const int i : {StateSpace::tx, StateSpace::ty}) e.covariance(i, i) = Scalar(options_.slope_spread * options_.slope_spread);
     return e;
   }
 
-  template <class StateSpace, class Filter, class ToSlopes>
-  void fit(const Filter& filter, const kalman::estimate<double, StateSpace::dimension>& start, const vector<double, StateSpace::dimension>& seed,
-           std::span<const cluster> clusters, track& t, std::vector<track_point>& track_points, lane<StateSpace>& work, const std::vector<int>& cluster_at,
+  template <class Filter, class StateSpace, class Scalar, class Leg, std::size_t Width, class Settled, class ToSlopes>
+  void fit(const Filter& filter, const std::vector<Leg>& legs, const kalman::estimate<Scalar, StateSpace::dimension>& start, const vector<Scalar, StateSpace::dimension>& seed,
+           const std::array<fit_job, Width>& jobs, const std::array<fitted_track*, Width>& out, fit_memory<StateSpace, Scalar, Leg>& work, const Settled& settled,
            const ToSlopes& to_slopes) const {
     const std::size_t surfaces = path_.surfaces.size();
-    work.stops.clear();
-    for (std::size_t i = 0; i <= surfaces; ++i) {
-      stop<StateSpace> s{kalman::at_start, std::nullopt};
-      if (i > 0) s.step = path_.legs[i];
-      if (i < surfaces && cluster_at[i] >= 0) {
-        const surface& at = path_.surfaces[i];
-        const cluster& hit = clusters[static_cast<std::size_t>(cluster_at[i])];
-        s.measurement = fibre_measurement<StateSpace>{hit.alpha, hit.variance, at.cos_angle, at.sin_angle, at.offset};
-      }
-      work.stops.push_back(s);
-    }
+    set_stops(path_, legs, jobs, work);
     work.nodes.resize(surfaces + 1);
     work.references.resize(surfaces + 2);
-    const auto result = kalman::run_relinearised(filter, start, seed, work.stops, work.nodes, work.references, options_.passes, [&](const auto& reference, const auto& smoothed) {
-      if constexpr (std::is_same_v<StateSpace, line_state>) return true;  // a line is linear
-      else {
-        constexpr int k = slope_state::q_over_pz;
-        const double share = options_.settled * std::abs(reference[k]);
-        return std::abs(smoothed.mean[k] - reference[k]) <= share && kalman::sigma(smoothed, k) <= 2.0 * share;
+    // A lane that has settled is written out at once: another pass, made for the others, would move it.
+    std::array<bool, Width> written{};
+    const auto write = [&](const auto& ready) {
+      for (std::size_t lane = 0; lane < Width; ++lane) {
+        if (written[lane] || !lane_of(ready, static_cast<int>(lane))) continue;
+        written[lane] = true;
+        write_track(path_, travel_, work, jobs[lane], lane, to_slopes, *out[lane]);
       }
-    });
-    t.status = result.status;
-    if (!result.status.ok()) return;
-
-    t.chi2 = result.chi2;
-    t.ndf = result.ndf - (t.shape == track_shape::helix ? 5 : 4);
-    t.p_value = chi_squared_probability(t.chi2, t.ndf);
-    const kalman::estimate<double, 5> at_reference = to_slopes(work.nodes.back().smoothed);
-    t.charge = (at_reference.mean[slope_state::q_over_pz] < 0.0 ? -1 : 1) * travel_;
-    t.reference = convert(at_reference, [this](const vector<double, 5>& x) { return slopes_to_momentum(x, travel_); });
-    for (std::size_t i = surfaces; i-- > 0;) add_point(work.nodes[i], path_.surfaces[i], cluster_at[i], t, track_points, to_slopes);
-  }
-
-  template <class Node, class ToSlopes>
-  void add_point(const Node& n, const surface& at, int cluster, track& t, std::vector<track_point>& track_points, const ToSlopes& to_slopes) const {
-    track_point p;
-    p.station = at.station;
-    p.plane = at.plane;
-    p.z = at.z;
-    p.smoothed = to_slopes(n.smoothed);
-    p.residual = p.pull = std::numeric_limits<double>::quiet_NaN();
-    if (n.measurement_dimension > 0) {
-      const auto unbiased = kalman::unbiased_residual(n);
-      p.residual = unbiased.value(0);
-      p.pull = p.residual / std::sqrt(unbiased.covariance(0, 0));
-      p.chi2 = n.chi2;
-      p.outlier = n.outlier;
-      p.cluster = cluster;
-      if (!p.outlier) {
-        const auto own = std::span(track_points).subspan(static_cast<std::size_t>(t.first_point));
-        const bool seen = std::any_of(own.begin(), own.end(), [&at](const track_point& q) { return q.station == at.station && q.cluster >= 0 && !q.outlier; });
-        t.stations += seen ? 0 : 1;
-        ++t.planes;
-      }
-    }
-    ++t.points;
-    track_points.push_back(p);
+    };
+    const auto result = kalman::run_relinearised(
+        filter, start, seed, work.stops, work.nodes, work.references, options_.passes,
+        [&](const auto& reference, const auto& smoothed) {
+          const auto ready = settled(reference, smoothed);
+          if constexpr (Width > 1) write(ready);
+          return all_of(ready);
+        },
+        kalman::modified_bryson_frazier{});
+    if (result.status.ok()) return write(kalman::mask<Scalar>(true));
+    for (std::size_t lane = 0; lane < Width; ++lane)
+      if (!written[lane]) write_failure(path_, jobs[lane], result.status, *out[lane]);
   }
 
   track_fit_options options_;
   int travel_;
   fit_path path_;
+  std::vector<helix_leg> helix_legs_;
   helix_filter helix_;
   line_filter line_;
 };

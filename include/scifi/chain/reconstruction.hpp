@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -40,29 +41,32 @@ class reconstruction {
     typename SpacePointFinder::buffers space_points;
     typename CandidateFinder::buffers candidates;
     typename TrackFitter::buffers fit;
+    std::vector<std::size_t> first_candidates;  ///< for each event, of each tracker, and where the last one ends
+    std::vector<fit_job> jobs;
+    std::vector<fitted_track> fitted;
   };
 
   reconstruction(detector where, ClusterFinder clusters, SpacePointFinder points, std::vector<stages> trackers)
       : where_(std::move(where)), find_clusters_(std::move(clusters)), find_points_(std::move(points)), trackers_(std::move(trackers)) {}
 
   /// Fills the event from its digits, which are sorted on the way. What was reconstructed before is replaced.
-  void operator()(event& e, buffers& work) const {
-    e.clear_reconstruction();
-    find_clusters_(where_, e.digits, e.clusters);
-    for (const stages& s : trackers_) {
-      const std::size_t first_candidate = e.candidates.size();
-      const bool points_complete = find_points_(s.where, e.clusters, e.space_points, work.space_points);
-      const bool candidates_complete = s.find_candidates(e.space_points, e.clusters.size(), e.candidates, work.candidates);
-      e.flags.combinations_limited |= !points_complete || !candidates_complete;
-      for (std::size_t i = first_candidate; i < e.candidates.size(); ++i) {
-        s.fit_track(e.candidates[i], static_cast<int>(i), e.space_points, e.clusters, e.tracks, e.track_points, work.fit);
-        e.flags.fit_failed |= !e.tracks.back().status.ok();
-        if (left_before_reference(e.tracks.back(), s.where)) {
-          e.track_points.resize(static_cast<std::size_t>(e.tracks.back().first_point));
-          e.tracks.pop_back();
-        }
+  void operator()(event& e, buffers& work) const { (*this)(std::span(&e, 1), work); }
+
+  /// The same for a block of events: their tracks are fitted together, where the fitter can one in each SIMD lane.
+  void operator()(std::span<event> events, buffers& work) const {
+    work.first_candidates.clear();
+    for (event& e : events) {
+      e.clear_reconstruction();
+      find_clusters_(where_, e.digits, e.clusters);
+      for (const stages& s : trackers_) {
+        work.first_candidates.push_back(e.candidates.size());
+        const bool points_complete = find_points_(s.where, e.clusters, e.space_points, work.space_points);
+        const bool candidates_complete = s.find_candidates(e.space_points, e.clusters.size(), e.candidates, work.candidates);
+        e.flags.combinations_limited |= !points_complete || !candidates_complete;
       }
+      work.first_candidates.push_back(e.candidates.size());
     }
+    for (std::size_t t = 0; t < trackers_.size(); ++t) fit_tracks(trackers_[t], t, events, work);
   }
 
   /// The same with memory of its own for this call.
@@ -74,6 +78,38 @@ class reconstruction {
   [[nodiscard]] const detector& where() const { return where_; }
 
  private:
+  /// Fits what was found in one tracker in all events, and appends it to them.
+  void fit_tracks(const stages& s, std::size_t tracker, std::span<event> events, buffers& work) const {
+    work.jobs.clear();
+    const auto each_candidate = [&](const auto& f) {
+      const std::size_t* first = work.first_candidates.data() + tracker;
+      for (event& e : events) {
+        for (std::size_t i = first[0]; i < first[1]; ++i) f(e, i);
+        first += trackers_.size() + 1;
+      }
+    };
+    const auto judge = [&s](event& e) {
+      e.flags.fit_failed |= !e.tracks.back().status.ok();
+      if (!left_before_reference(e.tracks.back(), s.where)) return;
+      e.track_points.resize(static_cast<std::size_t>(e.tracks.back().first_point));
+      e.tracks.pop_back();
+    };
+    if constexpr (requires { s.fit_track.fit_batch(work.jobs, work.fitted, work.fit); }) {
+      each_candidate([&work](event& e, std::size_t i) { work.jobs.push_back({&e.candidates[i], static_cast<int>(i), e.space_points, e.clusters}); });
+      s.fit_track.fit_batch(work.jobs, work.fitted, work.fit);
+      std::size_t next = 0;
+      each_candidate([&](event& e, std::size_t) {
+        append(work.fitted[next++], e.tracks, e.track_points);
+        judge(e);
+      });
+    } else {
+      each_candidate([&](event& e, std::size_t i) {
+        s.fit_track(e.candidates[i], static_cast<int>(i), e.space_points, e.clusters, e.tracks, e.track_points, work.fit);
+        judge(e);
+      });
+    }
+  }
+
   /// A particle that entered at the far end and left through the side never was at the reference surface, and a state there would be an invention.
   /// Its candidate stays in the event.
   [[nodiscard]] static bool left_before_reference(const track& t, const tracker& where) {
@@ -116,7 +152,7 @@ template <class FlightIn>
   const median_energy_loss loss{static_cast<double>(stations)};
   const landau_straggling straggling{static_cast<double>(stations)};
   using flight = decltype(flight_in(std::declval<const tracker&>()).flight);
-  using fitter = track_fitter<median_energy_loss, highland_scattering, landau_straggling, kalman::joseph, kalman::no_gate, flight>;
+  using fitter = track_fitter<median_energy_loss, highland_scattering, landau_straggling, kalman::symmetric_form, kalman::no_gate, flight>;
 
   track_finder_options finding;
   finding.line_momentum = options.line_momentum;
@@ -137,7 +173,7 @@ template <class FlightIn>
     finding.field = fitting.field = fly.field;
     finding.min_stations = fly.field != 0.0 ? 4 : 3;
     trackers.push_back({t, track_finder(t, finding, options.hypothesis, scattering),
-                        fitter(t, fitting, options.hypothesis, loss, scattering, straggling, kalman::joseph{}, kalman::no_gate{}, fly.flight)});
+                        fitter(t, fitting, options.hypothesis, loss, scattering, straggling, kalman::symmetric_form{}, kalman::no_gate{}, fly.flight)});
   }
   return reconstruction(where, clusters, points, std::move(trackers));
 }

@@ -24,10 +24,7 @@ template <scalar Scalar>
 [[nodiscard]] turning<Scalar> turning_at(const Scalar& t) {
   using std::cos;
   using std::sin;
-  const Scalar sine = sin(t);
-  const Scalar cosine = cos(t);
   const auto small = magnitude(t) < Scalar(0.5);
-  const Scalar safe = select(small, Scalar(1.0), t);
   const Scalar q = t * t;
 
   // Horner in q = t^2: sin(t)/t = sum (-q)^k/(2k+1)!, (1-cos t)/t = t sum (-q)^k/(2k+2)!.
@@ -39,10 +36,19 @@ template <scalar Scalar>
   // d/dt: s1' = t sum_k 2k (-1)^k q^(k-1)/(2k+1)!, c1' = sum_k (2k+1)(-q)^k/(2k+2)!.
   const Scalar d_s1_over_t = series(-2.0 / 6, 4.0 / 120, -6.0 / 5040, 8.0 / 362880, -10.0 / 39916800, 12.0 / 6227020800.0, -14.0 / 1307674368000.0);
   const Scalar d_c1_series = series(0.5, -3.0 / 24, 5.0 / 720, -7.0 / 40320, 9.0 / 3628800, -11.0 / 479001600, 13.0 / 87178291200.0);
+  const Scalar c1_series = t * c1_over_t;
+  const Scalar d_s1_series = t * d_s1_over_t;
+  const Scalar sine_series = t * s1_series;
+  const Scalar cosine_series = Scalar(1.0) - t * c1_series;
+  if (all_of(small)) return {sine_series, cosine_series, s1_series, c1_series, d_s1_series, d_c1_series};
 
+  // Each lane of a pack gets what it would get alone.
+  const Scalar sine = select(small, sine_series, Scalar(sin(t)));
+  const Scalar cosine = select(small, cosine_series, Scalar(cos(t)));
+  const Scalar safe = select(small, Scalar(1.0), t);
   const Scalar s1 = select(small, s1_series, Scalar(sine / safe));
-  const Scalar c1 = select(small, Scalar(t * c1_over_t), Scalar((Scalar(1.0) - cosine) / safe));
-  const Scalar d_s1 = select(small, Scalar(t * d_s1_over_t), Scalar((cosine - s1) / safe));
+  const Scalar c1 = select(small, c1_series, Scalar((Scalar(1.0) - cosine) / safe));
+  const Scalar d_s1 = select(small, d_s1_series, Scalar((cosine - s1) / safe));
   const Scalar d_c1 = select(small, d_c1_series, Scalar((sine - c1) / safe));
   return {sine, cosine, s1, c1, d_s1, d_c1};
 }

@@ -3,6 +3,7 @@
 
 #include <cstring>
 #include <type_traits>
+#include <utility>
 
 namespace scifi::kalman::detail {
 
@@ -79,6 +80,22 @@ struct column {
     c.tail = tail.times(weight);
     return c;
   }
+  /// The entries whose bit is set, zero in the others.
+  template <unsigned Bits>
+  [[nodiscard, gnu::always_inline]] column only() const {
+    column c;
+    c.tail = tail.template only<(Bits >> width)>();
+    if constexpr (width == 1) {
+      c.head = (Bits & 1u) != 0 ? head : Scalar(0);
+    } else {
+      c.head = [this]<int... I>(std::integer_sequence<int, I...>) {
+        using bits = decltype(head < head);
+        constexpr bits keep = {(((Bits >> I) & 1u) != 0 ? -1 : 0)...};
+        return reinterpret_cast<decltype(head)>(reinterpret_cast<bits>(head) & keep);
+      }(std::make_integer_sequence<int, width>{});
+    }
+    return c;
+  }
   template <int I>
   [[gnu::always_inline]] void set(Scalar value) {
     if constexpr (I >= width) tail.template set<I - width>(value);
@@ -96,6 +113,8 @@ struct column<Scalar, 0> {
   template <class Longer>
   [[gnu::always_inline]] void subtract(const Longer&, Scalar) {}
   [[gnu::always_inline]] void add(const column&) {}
+  template <unsigned>
+  [[nodiscard, gnu::always_inline]] column only() const { return {}; }
   [[nodiscard, gnu::always_inline]] column times(Scalar) const { return {}; }
 };
 

@@ -8,9 +8,11 @@
 #include <scifi/kalman/apply_gate.hpp>
 #include <scifi/kalman/factored_estimate.hpp>
 #include <scifi/kalman/gate.hpp>
+#include <scifi/kalman/in_some_lanes.hpp>
 #include <scifi/kalman/joseph.hpp>
 #include <scifi/kalman/run.hpp>
 #include <scifi/kalman/sentences.hpp>
+#include <scifi/kalman/step_covariance.hpp>
 #include <scifi/kalman/triangular.hpp>
 
 namespace scifi::kalman {
@@ -73,36 +75,51 @@ class filter {
     return detail::run(*this, start, sites, out, references);
   }
 
+  /// `detail::run` has the filter write into the nodes.
+  template <class Filter, class Prior, class Sites, class Nodes, class References>
+  friend auto detail::run(const Filter& f, const Prior& start, const Sites& sites, Nodes& out, const References& references);
+
  private:
   template <class Prior, class Step, class About, class Arrived = std::nullptr_t>
   [[nodiscard]] auto predict_about(const Prior& prior, const Step& step, const About& about, const Arrived& arrived = nullptr) const {
     if constexpr (detail::prior_fits<Prior>::value) {
-      using estimate_type = detail::estimate_type<Prior>;
-      using Scalar = typename estimate_type::scalar;
-      constexpr int N = estimate_type::dimension;
-      if constexpr (detail::is_optional<Step>) {
-        using result = basic_predicted<estimate_type>;
-        if (step) return result(predict_about(prior, *step, about, arrived));
-        if constexpr (!std::is_same_v<Arrived, std::nullptr_t>) *arrived = *about;
-        return unmoved(detail::estimate_in(prior), detail::status_in(prior));
-      } else if constexpr (detail::model_spaces_agree<Propagator, Noise>::value && detail::propagator_fits<Propagator, Scalar, N, Step>::value &&
-                           detail::noise_fits<Noise, Scalar, N, Step>::value) {
-        if (!detail::status_in(prior).ok()) return unmoved(detail::estimate_in(prior), detail::status_in(prior));
-        return advanced(detail::estimate_in(prior), step, about, arrived);
-      } else {
-        return unmoved(detail::estimate_in(prior), status{});
-      }
+      basic_predicted<detail::estimate_type<Prior>> out;
+      out.status = detail::status_in(prior);
+      if (out.status.ok()) out.status = predict_into(detail::estimate_in(prior), step, about, arrived, out.estimate, out.jacobian, out.noise);
+      else unmoved(detail::estimate_in(prior), out.estimate, out.jacobian, out.noise);
+      return out;
     }
   }
 
-  template <class Estimate>
-  [[nodiscard]] static basic_predicted<Estimate> unmoved(const Estimate& e, status s) {
-    using square = matrix<typename Estimate::scalar, Estimate::dimension, Estimate::dimension>;
-    return {e, square::Identity(), square::Zero(), s};
+  /// The prediction written where it is to stay.
+  template <class Estimate, class Step, class About, class Arrived, class Square>
+  [[nodiscard]] status predict_into(const Estimate& prior, const Step& step, const About& about, const Arrived& arrived, Estimate& end, Square& jacobian, Square& noise) const {
+    using Scalar = typename Estimate::scalar;
+    constexpr int N = Estimate::dimension;
+    if constexpr (detail::is_optional<Step>) {
+      if (step) return predict_into(prior, *step, about, arrived, end, jacobian, noise);
+      if constexpr (!std::is_same_v<Arrived, std::nullptr_t>) *arrived = *about;
+      unmoved(prior, end, jacobian, noise);
+    } else if constexpr (detail::is_reference<Step>) {
+      return predict_into(prior, step.get(), about, arrived, end, jacobian, noise);
+    } else if constexpr (detail::model_spaces_agree<Propagator, Noise>::value && detail::propagator_fits<Propagator, Scalar, N, Step>::value &&
+                         detail::noise_fits<Noise, Scalar, N, Step>::value) {
+      return {step_kind::predict, advance(prior, step, about, arrived, end, jacobian, noise)};
+    } else {
+      unmoved(prior, end, jacobian, noise);  // behind an error
+    }
+    return {step_kind::predict, reason::none};
   }
 
-  template <class Estimate, class Step, class About, class Arrived>
-  [[nodiscard]] basic_predicted<Estimate> advanced(const Estimate& prior, const Step& step, const About& about, const Arrived& arrived) const {
+  template <class Estimate, class Square>
+  static void unmoved(const Estimate& e, Estimate& end, Square& jacobian, Square& noise) {
+    end = e;
+    jacobian.setIdentity();
+    noise.setZero();
+  }
+
+  template <class Estimate, class Step, class About, class Arrived, class Square>
+  [[nodiscard]] reason advance(const Estimate& prior, const Step& step, const About& about, const Arrived& arrived, Estimate& end, Square& jacobian, Square& noise) const {
     using Scalar = typename Estimate::scalar;
     constexpr int N = Estimate::dimension;
     constexpr bool relinearised = !std::is_same_v<About, std::nullptr_t>;
@@ -110,25 +127,25 @@ class filter {
       if constexpr (relinearised) return *about;
       else return prior.mean;
     }();
-    const propagated<Scalar, N> moved = propagate(propagator_, from, step);
-    basic_predicted<Estimate> out;
-    out.estimate.mean = moved.state;
-    detail::copy_columns<Scalar, N, N>(out.jacobian, moved.jacobian);
-    ::new (static_cast<void*>(&out.noise)) matrix<Scalar, N, N>(detail::noise_covariance<Scalar, N>(noise_, from, step, moved));  // made in its place
-    if constexpr (relinearised) out.estimate.mean += detail::times_vector<Scalar, N, N>(moved.jacobian, prior.mean - from);
+    const auto moved = detail::propagate_fully(propagator_, from, step);
+    detail::copy_columns<Scalar, N, N>(jacobian, moved.jacobian);
+    ::new (static_cast<void*>(&noise)) Square(detail::noise_covariance<Scalar, N>(noise_, from, step, moved));  // made in its place
+    end.mean = moved.state;
+    if constexpr (relinearised) end.mean += detail::times_vector<Scalar, N, N>(moved.jacobian, prior.mean - from);
+    reason why = reason::none;
     if constexpr (std::is_same_v<Estimate, kalman::estimate<Scalar, N>>) {
-      detail::set_similarity<Scalar, N, N>(out.estimate.covariance, moved.jacobian, prior.covariance, out.noise);
-      out.status.why = fault_of(out.estimate.mean, out.estimate.covariance);
+      detail::carry_covariance<detail::unit_columns_of<Propagator>(), Scalar, N>(end.covariance, moved.jacobian, prior.covariance, noise);
+      why = fault_of(end.mean, end.covariance);
     } else {
       matrix<Scalar, N, 2 * N> array;
       array.template leftCols<N>() = moved.jacobian.lazyProduct(prior.factor);
-      array.template rightCols<N>() = semidefinite_factor<Scalar, N>(out.noise);
-      out.estimate.factor = lower_triangular<Scalar, N, 2 * N>(array);
-      out.status.why = fault_of(out.estimate.mean, out.estimate.factor);
+      array.template rightCols<N>() = semidefinite_factor<Scalar, N>(noise);
+      end.factor = lower_triangular<Scalar, N, 2 * N>(array);
+      why = fault_of(end.mean, end.factor);
     }
-    if (!out.status.ok()) out.estimate = prior;
+    if (why != reason::none) end = prior;
     if constexpr (!std::is_same_v<Arrived, std::nullptr_t>) *arrived = moved.state;
-    return out;
+    return why;
   }
 
   template <class Prior, class Measurement, class About>
@@ -173,6 +190,7 @@ class filter {
   [[nodiscard]] auto gated(const Estimate& prior, const Measurement& m) const -> basic_updated<Estimate, max_measurement_dimension<Measurement>> {
     basic_updated<Estimate, max_measurement_dimension<Measurement>> out = update_(prior, m);
     detail::apply_gate(gate_, prior, out);
+    detail::keep_absent_lanes(m, prior, out);
     return out;
   }
 

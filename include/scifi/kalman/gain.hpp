@@ -30,12 +30,12 @@ struct gain {
   reason why = reason::none;
 };
 
-/// Gain of a measurement for an estimate of covariance P, through S = L D L'.
-template <class Scalar, int N, int M>
+/// Gain of a measurement for an estimate of covariance P, through S = L D L'. Columns of H whose bit is not set in Seen are taken to be zero.
+template <class Scalar, int N, int M, unsigned Seen = ~0u>
 [[nodiscard, gnu::always_inline]] inline gain<Scalar, N, M> optimal_gain(const matrix<Scalar, N, N>& p, const innovation<Scalar, N, M>& seen) {
   gain<Scalar, N, M> out;
-  detail::multiply(out.cross, p, detail::transpose_of<Scalar, M, N>(seen.jacobian));
-  detail::multiply(out.residual_covariance, seen.jacobian, [&out](int k, int j) -> const Scalar& { return out.cross(k, j); });
+  detail::multiply<Seen>(out.cross, p, detail::transpose_of<Scalar, M, N>(seen.jacobian));
+  detail::multiply<Seen>(out.residual_covariance, seen.jacobian, [&out](int k, int j) -> const Scalar& { return out.cross(k, j); });
   out.residual_covariance += seen.covariance;
   detail::mirror<Scalar, M>(out.residual_covariance);
   const ldl<Scalar, M> factor(out.residual_covariance);

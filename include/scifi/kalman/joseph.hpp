@@ -15,7 +15,7 @@ struct joseph {
     constexpr int M = max_measurement_dimension<Measurement>;
     innovation<Scalar, N, M> seen;
     detail::set_innovation(seen, m, prior.mean);
-    const gain<Scalar, N, M> k = optimal_gain(prior.covariance, seen);
+    const gain<Scalar, N, M> k = optimal_gain<Scalar, N, M, detail::seen_components_of<Measurement>()>(prior.covariance, seen);
     updated<Scalar, N, M> out;
     matrix<Scalar, N, N> t;
     detail::set_difference(t, prior.covariance, k.weight, detail::transpose_of<Scalar, N, M>(k.cross));

@@ -90,7 +90,7 @@ template <class Scalar, int N, int M, class Measurement>
     const matrix<Scalar, M, N> h = converted<Scalar, M, N>([&m]() -> decltype(auto) { return m.projection(); });
     for (int j = 0; j < N; ++j)
       for (int i = 0; i < M; ++i) out.jacobian(i, j) = h(i, j);
-    out.residual = against(times_vector<Scalar, M, N>(out.jacobian, x));
+    out.residual = against(times_vector<Scalar, M, N, seen_components_of<Measurement>()>(out.jacobian, x));
   } else {
     const auto expected = m.project(x);
     out.jacobian = as_matrix<Scalar, M, N>(expected.jacobian);

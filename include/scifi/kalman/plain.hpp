@@ -14,7 +14,7 @@ struct plain {
     constexpr int M = max_measurement_dimension<Measurement>;
     innovation<Scalar, N, M> seen;
     detail::set_innovation(seen, m, prior.mean);
-    const gain<Scalar, N, M> k = optimal_gain(prior.covariance, seen);
+    const gain<Scalar, N, M> k = optimal_gain<Scalar, N, M, detail::seen_components_of<Measurement>()>(prior.covariance, seen);
     updated<Scalar, N, M> out;
     matrix<Scalar, N, N> a = matrix<Scalar, N, N>::Identity();
     a -= detail::times<Scalar, N, M, N>(k.weight, seen.jacobian);

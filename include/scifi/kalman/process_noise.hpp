@@ -27,17 +27,17 @@ concept noise_of_step = requires(const Q& q, const Step& step) { q.covariance(st
 template <class Q, class Scalar, int N, class Step>
 concept has_noise_covariance = noise_of_all<Q, Scalar, N, Step> || noise_of_start<Q, Scalar, N, Step> || noise_of_step<Q, Step>;
 
-/// q.covariance with as many arguments as it takes; the longest list it accepts wins.
-template <class Scalar, int N, class Q, class Step>
-[[nodiscard]] decltype(auto) noise_value(const Q& q, const vector<Scalar, N>& start, const Step& step, const propagated<Scalar, N>& moved) {
+/// q.covariance with as many arguments as it takes; the longest list it accepts wins. `moved` is a `propagated`, or made from it.
+template <class Scalar, int N, class Q, class Step, class Moved>
+[[nodiscard]] decltype(auto) noise_value(const Q& q, const vector<Scalar, N>& start, const Step& step, const Moved& moved) {
   if constexpr (noise_of_all<Q, Scalar, N, Step>) return q.covariance(start, step, moved);
   else if constexpr (noise_of_start<Q, Scalar, N, Step>) return q.covariance(start, step);
   else return q.covariance(step);
 }
 
 /// The noise of a step, N x N.
-template <class Scalar, int N, class Q, class Step>
-[[nodiscard]] matrix<Scalar, N, N> noise_covariance(const Q& q, const vector<Scalar, N>& start, const Step& step, const propagated<Scalar, N>& moved) {
+template <class Scalar, int N, class Q, class Step, class Moved>
+[[nodiscard]] matrix<Scalar, N, N> noise_covariance(const Q& q, const vector<Scalar, N>& start, const Step& step, const Moved& moved) {
   if constexpr (std::is_same_v<Q, no_noise>) return matrix<Scalar, N, N>::Zero();
   else return converted<Scalar, N, N>([&]() -> decltype(auto) { return noise_value<Scalar, N>(q, start, step, moved); });
 }

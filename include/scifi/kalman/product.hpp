@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MPL-2.0
 #pragma once
 
+#include <bit>
 #include <utility>
 
 #include <scifi/core/linalg.hpp>
 #include <scifi/kalman/column.hpp>
+#include <scifi/kalman/structure.hpp>
 
 /// Products of small matrices of a size known at compile time, by columns of the left one weighted with entries of the right one.
 /// The results are written where they are to stay: a matrix copied right after it was written holds up the processor.
@@ -46,43 +48,51 @@ template <class Scalar, int Rows, int Cols>
   }
 }
 
-/// out = sum over k of weight(k) times column k of a, in two halves that do not wait for each other. `out` may be a column of a matrix.
-template <int Rows, int K, class Scalar, class Weight>
+/// out = sum over k of weight(k) times column k of a, over the k whose bit is set in Used, in two halves that do not wait for each other.
+/// `out` may be a column of a matrix.
+template <int Rows, int K, unsigned Used = ~0u, class Scalar, class Weight>
 [[gnu::always_inline]] inline void combine_columns(Scalar* out, const Scalar* a, const Weight& weight) {
+  constexpr int first = std::countr_zero(Used);
+  static_assert(first < K);
   if constexpr (in_registers<Scalar>) {
     using column = detail::column<Scalar, Rows>;
-    column sum = column::load(a).times(weight(0));
-    if constexpr (K > 1) {
-      column other = column::load(a + Rows).times(weight(1));
-      for (int k = 2; k + 1 < K; k += 2) {
-        sum.add(column::load(a + Rows * k), weight(k));
-        other.add(column::load(a + Rows * (k + 1)), weight(k + 1));
+    column sum = column::load(a + Rows * first).times(weight(first));
+    constexpr unsigned others = Used & ((K < 32 ? 1u << (K % 32) : 0u) - 1u) & ~(1u << first);
+    if constexpr (others != 0) {
+      constexpr int second = std::countr_zero(others);
+      column other = column::load(a + Rows * second).times(weight(second));
+      bool even = true;
+      for (int k = second + 1; k < K; ++k) {
+        if (!has_bit(Used, k)) continue;
+        if (even) sum.add(column::load(a + Rows * k), weight(k));
+        else other.add(column::load(a + Rows * k), weight(k));
+        even = !even;
       }
-      if constexpr (K % 2 == 1) sum.add(column::load(a + Rows * (K - 1)), weight(K - 1));
       sum.add(other);
     }
     sum.store(out);
   } else {
     for (int i = 0; i < Rows; ++i) {
-      Scalar sum = a[i] * weight(0);
-      for (int k = 1; k < K; ++k) sum += a[i + Rows * k] * weight(k);
+      Scalar sum = a[i + Rows * first] * weight(first);
+      for (int k = first + 1; k < K; ++k)
+        if (has_bit(Used, k)) sum += a[i + Rows * k] * weight(k);
       out[i] = sum;
     }
   }
 }
 
 /// a x.
-template <class Scalar, int Rows, int K>
+template <class Scalar, int Rows, int K, unsigned Used = ~0u>
 [[nodiscard, gnu::always_inline]] inline vector<Scalar, Rows> times_vector(const matrix<Scalar, Rows, K>& a, const vector<Scalar, K>& x) {
   vector<Scalar, Rows> out;
-  combine_columns<Rows, K>(out.data(), a.data(), [&x](int k) -> const Scalar& { return x(k); });
+  combine_columns<Rows, K, Used>(out.data(), a.data(), [&x](int k) -> const Scalar& { return x(k); });
   return out;
 }
 
-/// out = a w, where weight(k, j) is the entry of w (K x Cols).
-template <class Scalar, int Rows, int K, int Cols, class Weight>
+/// out = a w, where weight(k, j) is the entry of w (K x Cols), over the columns k of a whose bit is set in Used.
+template <unsigned Used = ~0u, class Scalar, int Rows, int K, int Cols, class Weight>
 [[gnu::always_inline]] inline void multiply(matrix<Scalar, Rows, Cols>& out, const matrix<Scalar, Rows, K>& a, const Weight& weight) {
-  if constexpr (in_registers<Scalar> && (Cols > 3)) {
+  if constexpr (in_registers<Scalar> && Cols > 3 && Used == ~0u) {
     using column = detail::column<Scalar, Rows>;
     for (int j = 0; j < Cols; ++j) {
       column sum = column::load(a.data()).times(weight(0, j));
@@ -90,7 +100,7 @@ template <class Scalar, int Rows, int K, int Cols, class Weight>
       sum.store(out.data() + Rows * j);
     }
   } else {
-    for (int j = 0; j < Cols; ++j) combine_columns<Rows, K>(out.data() + Rows * j, a.data(), [&weight, j](int k) -> decltype(auto) { return weight(k, j); });
+    for (int j = 0; j < Cols; ++j) combine_columns<Rows, K, Used>(out.data() + Rows * j, a.data(), [&weight, j](int k) -> decltype(auto) { return weight(k, j); });
   }
 }
 

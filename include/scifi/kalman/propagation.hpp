@@ -44,4 +44,15 @@ template <class Propagator, class Scalar, int N, class Step>
   }
 }
 
+namespace detail {
+
+/// As `propagate`, with whatever else the propagator puts into its result, for the noise to use again.
+template <class Propagator, class Scalar, int N, class Step>
+[[nodiscard]] auto propagate_fully(const Propagator& p, const vector<Scalar, N>& x, const Step& step) {
+  if constexpr (requires { requires std::is_base_of_v<propagated<Scalar, N>, decltype(p.propagate(x, step))>; }) return p.propagate(x, step);
+  else return kalman::propagate(p, x, step);
+}
+
+}  // namespace detail
+
 }  // namespace scifi::kalman

@@ -5,6 +5,7 @@
 #include <iterator>
 #include <span>
 #include <type_traits>
+#include <variant>
 
 #include <scifi/kalman/apply_gate.hpp>
 #include <scifi/kalman/factored_estimate.hpp>
@@ -57,15 +58,6 @@ void set_estimate(estimate<Scalar, N>& out, const estimate<Scalar, N>& e) {
   copy_columns<Scalar, N, N>(out.covariance, e.covariance);
 }
 
-template <class Node, class Predicted>
-void record_prediction(Node& n, const Predicted& p) {
-  constexpr int N = Node::dimension;
-  using Scalar = typename Node::scalar;
-  set_estimate<Scalar, N>(n.predicted, unfactored(p.estimate));
-  copy_columns<Scalar, N, N>(n.jacobian, p.jacobian);
-  copy_columns<Scalar, N, N>(n.noise, p.noise);
-}
-
 template <class Node, class Updated>
 void record_update(Node& n, const Updated& u) {
   set_estimate<typename Node::scalar, Node::dimension>(n.filtered, unfactored(u.posterior));
@@ -103,30 +95,37 @@ template <class Filter, class Prior, class Sites, class Nodes, class References>
       const std::size_t k = result.reached;
       if (k >= nodes.size()) return fail({step_kind::predict, reason::out_of_space});
       auto& n = nodes[k];
+      constexpr bool factored = !std::is_same_v<estimate_type, std::remove_cvref_t<decltype(n.filtered)>>;
+      std::conditional_t<factored, estimate_type, std::monostate> own_prediction;
+      auto& prediction = [&]() -> estimate_type& {
+        if constexpr (factored) return own_prediction;
+        else return n.predicted;
+      }();
+      const auto predict = [&](const auto& about, const auto& arrived) { return f.predict_into(*current, here.step, about, arrived, prediction, n.jacobian, n.noise); };
       // Each alternative of a mixed measurement is taken in by matrices of its own size.
-      const auto take = [&](const auto& p, const auto&... about) {
-        record_prediction(n, p);
+      const auto take = [&](status predicted, const auto&... about) {
+        if constexpr (factored) n.predicted = unfactored(prediction);
         each_alternative(here.measurement, [&](const auto& m) {
-          const auto u = f.update(p, m, about...);
+          const auto u = f.update(basic_prior<estimate_type>{prediction, predicted}, m, about...);
           record_update(n, u);
-          if constexpr (std::is_same_v<estimate_type, std::remove_cvref_t<decltype(n.filtered)>>) current = &n.filtered;
-          else after_update = u.posterior;
+          if constexpr (factored) after_update = u.posterior;
+          else current = &n.filtered;
         });
         return n.status;
       };
       const auto one = [&] {
         if constexpr (std::is_same_v<References, no_references>) {
-          return take(f.predict(*current, here.step));
+          return take(predict(nullptr, nullptr));
         } else if constexpr (is_flown<References>) {
           auto& states = references.states;
           if (k + 1 >= std::size(states)) return status{step_kind::predict, reason::missing_reference};
-          const auto p = f.predict(*current, here.step, std::data(states)[k], std::data(states)[k + 1]);
-          return take(p, std::data(states)[k + 1]);
+          const status s = predict(std::data(states) + k, std::data(states) + k + 1);
+          return take(s, std::data(states)[k + 1]);
         } else {
           if (k >= std::size(references)) return status{step_kind::predict, reason::missing_reference};
           vector<Scalar, estimate_type::dimension> arrived;
-          const auto p = f.predict(*current, here.step, std::data(references)[k], arrived);
-          return k + 1 < std::size(references) ? take(p, std::data(references)[k + 1]) : take(p, arrived);
+          const status s = predict(std::data(references) + k, &arrived);
+          return k + 1 < std::size(references) ? take(s, std::data(references)[k + 1]) : take(s, arrived);
         }
       };
       const status s = one();

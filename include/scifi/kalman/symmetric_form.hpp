@@ -15,7 +15,7 @@ struct symmetric_form {
     constexpr int M = max_measurement_dimension<Measurement>;
     innovation<Scalar, N, M> seen;
     detail::set_innovation(seen, m, prior.mean);
-    const gain<Scalar, N, M> k = optimal_gain(prior.covariance, seen);
+    const gain<Scalar, N, M> k = optimal_gain<Scalar, N, M, detail::seen_components_of<Measurement>()>(prior.covariance, seen);
     updated<Scalar, N, M> out;
     detail::subtract_squares<Scalar, N, M>(out.posterior.covariance, prior.covariance, k.decorrelated, k.inverse_diagonal);
     out.posterior.mean = prior.mean + detail::times_vector<Scalar, N, M>(k.weight, seen.residual);

@@ -74,6 +74,13 @@ concept plain_estimate = requires(const E& e) {
   e.mean;
 };
 
+/// An estimate that stands elsewhere, with the status of the step that made it.
+template <class E>
+struct basic_prior {
+  const E& estimate;
+  kalman::status status;
+};
+
 template <plain_estimate E>
 [[nodiscard]] const E& estimate_in(const E& e) { return e; }
 template <class E>
@@ -81,10 +88,15 @@ template <class E>
 template <class E, int M, int MaxM>
 [[nodiscard]] const E& estimate_in(const basic_updated<E, M, MaxM>& u) { return u.posterior; }
 
+template <class E>
+[[nodiscard]] const E& estimate_in(const basic_prior<E>& p) { return p.estimate; }
+
 template <plain_estimate E>
 [[nodiscard]] constexpr status status_in(const E&) { return {}; }
 template <class E>
 [[nodiscard]] constexpr status status_in(const basic_predicted<E>& p) { return p.status; }
+template <class E>
+[[nodiscard]] constexpr status status_in(const basic_prior<E>& p) { return p.status; }
 template <class E, int M, int MaxM>
 [[nodiscard]] constexpr status status_in(const basic_updated<E, M, MaxM>& u) { return u.status; }
 

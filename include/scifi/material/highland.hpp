@@ -44,10 +44,36 @@ template <scalar Scalar>
   using std::log;
   const double charge2 = static_cast<double>(hypothesis.charge) * hypothesis.charge;
   if (!(radiation_lengths > 0.0) || charge2 == 0.0) return Scalar(0.0);
-  const Scalar logarithm = Scalar(log(layer_radiation_lengths * charge2)) + crossing.log_path - crossing.log_beta_squared;
+  const Scalar logarithm = Scalar(log(layer_radiation_lengths * charge2)) + crossing.log_path_over_beta_squared;
   const Scalar correction = larger_of(Scalar(Scalar(1.0) + logarithm * Scalar(highland::log_coefficient)), Scalar(0.0));
-  const Scalar unit = Scalar(highland::energy * highland::energy * charge2 * radiation_lengths) / (crossing.p * crossing.p * crossing.kinematics.beta_squared);
+  const Scalar unit = Scalar(highland::energy * highland::energy * charge2 * radiation_lengths) * crossing.per_p_beta_squared;
   return unit * crossing.path_over_thickness * correction * correction;
 }
+
+/// The variance that a stack of slabs gives, prepared for any momentum: with L = ln(path/beta^2) a polynomial of second degree in L.
+///
+/// A layer so thin that the factor of Highland's logarithm would be held at zero, x z^2/X0 < 4e-12, counts as nothing.
+struct prepared_highland {
+  double constant = 0.0, linear = 0.0, quadratic = 0.0;
+
+  /// Adds a slab: thicknesses at normal incidence, of the slab and of its layer.
+  void add(const particle& hypothesis, double radiation_lengths, double layer_radiation_lengths) {
+    const double charge2 = static_cast<double>(hypothesis.charge) * hypothesis.charge;
+    if (!(radiation_lengths > 0.0) || charge2 == 0.0) return;
+    const double correction = 1.0 + std::log(layer_radiation_lengths * charge2) * highland::log_coefficient;
+    if (!(correction > 0.0)) return;
+    const double scale = highland::energy * highland::energy * charge2 * radiation_lengths;
+    constant += scale * correction * correction;
+    linear += scale * 2.0 * correction * highland::log_coefficient;
+    quadratic += scale * highland::log_coefficient * highland::log_coefficient;
+  }
+
+  /// Of the projected angle, rad^2.
+  template <scalar Scalar>
+  [[nodiscard]] Scalar variance(const crossing_particle<Scalar>& c) const {
+    const Scalar l = c.log_path_over_beta_squared;
+    return (Scalar(constant) + l * (Scalar(linear) + l * Scalar(quadratic))) * c.path_over_thickness * c.per_p_beta_squared;
+  }
+};
 
 }  // namespace scifi

@@ -8,8 +8,16 @@
 #include <scifi/material/slab.hpp>
 
 /// What a policy says of several stacks of slabs at one momentum. A policy that also takes a `crossing_particle` is given it, so that
-/// velocities and logarithms are worked out once for all slabs; any other is asked slab by slab.
+/// velocities and logarithms are worked out once for all slabs; any other is asked slab by slab. A `prepared_stack` answers for itself.
 namespace scifi {
+
+/// sum += more, with the derivatives.
+template <scalar Scalar>
+void add_loss(energy_loss<Scalar>& sum, const energy_loss<Scalar>& more) {
+  sum.value += more.value;
+  sum.d_value_d_p += more.d_value_d_p;
+  sum.d_value_d_path_factor += more.d_value_d_path_factor;
+}
 
 /// Energy lost in all slabs of all stacks, MeV, with its derivatives.
 template <class Policy, scalar Scalar, class... Stacks>
@@ -20,12 +28,16 @@ template <class Policy, scalar Scalar, class... Stacks>
       if constexpr (requires { policy.loss(crossing, hypothesis, s); }) return policy.loss(crossing, hypothesis, s);
       else return policy.loss(crossing.p, hypothesis, s, crossing.path_over_thickness);
     }();
-    sum.value += one.value;
-    sum.d_value_d_p += one.d_value_d_p;
-    sum.d_value_d_path_factor += one.d_value_d_path_factor;
+    add_loss(sum, one);
   };
-  const auto add_stack = [&add](const auto& stack) {
-    for (const slab& s : stack) add(s);
+  const auto add_stack = [&](const auto& stack) {
+    if constexpr (requires { stack.loss(crossing); }) {
+      if (stack.empty()) return;
+      const energy_loss<Scalar> all = stack.loss(crossing);
+      add_loss(sum, all);
+    } else {
+      for (const slab& s : stack) add(s);
+    }
   };
   (add_stack(stacks), ...);
   return sum;

@@ -31,12 +31,16 @@ inline constexpr double core_width = full_width / gaussian_full_width;
 
 }  // namespace landau
 
+/// xi beta^2 per path, K/2 Z/A z^2 rho, MeV/mm.
+[[nodiscard]] inline double landau_xi_per_mm(const particle& hypothesis, const material& medium) {
+  const double charge = hypothesis.charge;
+  return 0.5 * constants::bethe_k * charge * charge * medium.z_over_a * medium.density / units::cm;
+}
+
 /// xi = K/2 Z/A z^2 rho x / beta^2 (MeV), PDG 2024 below eq. 34.12, for a path of `path` mm.
 template <scalar Scalar>
 [[nodiscard]] Scalar landau_xi(const ionisation_kinematics<Scalar>& k, const particle& hypothesis, const material& medium, const Scalar& path) {
-  const double charge = hypothesis.charge;
-  const double factor = 0.5 * constants::bethe_k * charge * charge * medium.z_over_a * medium.density / units::cm;
-  return path * Scalar(factor) / k.beta_squared;
+  return path * Scalar(landau_xi_per_mm(hypothesis, medium)) / k.beta_squared;
 }
 
 /// kappa = xi / T_max: Landau's limit below about 0.01, a Gaussian above about 10.

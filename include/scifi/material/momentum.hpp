@@ -14,25 +14,33 @@ struct momentum_change {
   Scalar p_new;
   Scalar d_new_d_p;
   Scalar d_new_d_loss;
+  Scalar per_new;  ///< 1 / p_new
 };
 
-/// p' = sqrt(p^2 - loss (2 E - loss)), E^2 = p^2 + mass^2; p > 0 in MeV/c, mass and energy_lost in MeV.
-/// A negative `energy_lost` is a gain: a particle followed against its flight.
-/// Fails with NaN in all three when nothing of the kinetic energy is left: the particle has stopped.
+/// `momentum_after_loss` below where E (MeV) and 1/E are known already.
 template <scalar Scalar>
-[[nodiscard]] momentum_change<Scalar> momentum_after_loss(const Scalar& p, double mass, const Scalar& energy_lost) {
+[[nodiscard]] momentum_change<Scalar> momentum_after_loss(const Scalar& p, double mass, const Scalar& energy, const Scalar& per_energy, const Scalar& energy_lost) {
   using std::sqrt;
   const Scalar p2 = p * p;
-  const Scalar energy = sqrt(p2 + Scalar(mass * mass));
-  const Scalar kinetic = p2 / (energy + Scalar(mass));
-  const auto moving = energy_lost < kinetic;
+  const auto moving = energy_lost * (energy + Scalar(mass)) < p2;  // less than the kinetic energy p^2 / (E + m)
   const Scalar p2_new = p2 - energy_lost * (energy * Scalar(2.0) - energy_lost);
   const Scalar safe = select(moving, p2_new, p2);
   const Scalar root = sqrt(safe);
-  const Scalar energy_new = energy - energy_lost;
+  const Scalar per_root = Scalar(1.0) / root;
+  const Scalar d_new_d_loss = (energy_lost - energy) * per_root;
   const Scalar stopped(std::numeric_limits<double>::quiet_NaN());
-  return {select(moving, root, stopped), select(moving, Scalar(energy_new * p / (energy * root)), stopped),
-          select(moving, Scalar(-energy_new / root), stopped)};
+  return {select(moving, root, stopped), select(moving, Scalar(-d_new_d_loss * p * per_energy), stopped), select(moving, d_new_d_loss, stopped),
+          per_root};
+}
+
+/// p' = sqrt(p^2 - loss (2 E - loss)), E^2 = p^2 + mass^2; p > 0 in MeV/c, mass and energy_lost in MeV.
+/// A negative `energy_lost` is a gain: a particle followed against its flight.
+/// Fails with NaN in all but the inverse when nothing of the kinetic energy is left: the particle has stopped.
+template <scalar Scalar>
+[[nodiscard]] momentum_change<Scalar> momentum_after_loss(const Scalar& p, double mass, const Scalar& energy_lost) {
+  using std::sqrt;
+  const Scalar energy = sqrt(p * p + Scalar(mass * mass));
+  return momentum_after_loss(p, mass, energy, Scalar(Scalar(1.0) / energy), energy_lost);
 }
 
 }  // namespace scifi

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MPL-2.0
 #pragma once
 
+#include <cstddef>
+
 #include <scifi/core/scalar.hpp>
 #include <scifi/material/highland.hpp>
 #include <scifi/material/particle.hpp>
@@ -35,6 +37,12 @@ struct highland_scattering {
   template <scalar Scalar>
   [[nodiscard]] Scalar variance(const crossing_particle<Scalar>& crossing, const particle& hypothesis, const slab& s) const {
     return highland_variance(crossing, hypothesis, radiation_lengths(s), s.layer_radiation_lengths);
+  }
+  template <std::size_t Capacity>
+  [[nodiscard]] prepared_highland prepared(const particle& hypothesis, const slab_stack<Capacity>& stack) const {
+    prepared_highland out;
+    for (const slab& s : stack) out.add(hypothesis, radiation_lengths(s), s.layer_radiation_lengths);
+    return out;
   }
 };
 

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MPL-2.0
 #pragma once
 
+#include <cstddef>
+
+#include <scifi/core/inline_vector.hpp>
 #include <scifi/core/scalar.hpp>
 #include <scifi/material/kinematics.hpp>
 #include <scifi/material/landau.hpp>
@@ -35,6 +38,27 @@ struct bohr_straggling {
   }
 };
 
+/// The variance that a stack of slabs adds with `landau_straggling`, prepared for any momentum.
+template <std::size_t Capacity>
+struct prepared_landau_straggling {
+  struct part {
+    double xi;    ///< MeV, for beta = 1 along the normal
+    double core;  ///< variance of the core's share over xi^2
+  };
+  inline_vector<part, Capacity> slabs;
+
+  /// Of the energy, MeV^2.
+  template <scalar Scalar>
+  [[nodiscard]] Scalar variance(const crossing_particle<Scalar>& c) const {
+    Scalar sum(0.0);
+    for (const part& s : slabs) {
+      const Scalar xi = c.path_over_beta_squared * Scalar(s.xi);
+      sum += smaller_of(Scalar(xi * xi * Scalar(s.core)), bohr_variance(xi, c.kinematics));
+    }
+    return sum;
+  }
+};
+
 /// Variance (MeV^2) of the Gaussian as wide at half maximum as the Landau core, (4.018 xi / 2.355)^2. Goes with the most probable or the
 /// median loss.
 ///
@@ -56,11 +80,16 @@ struct landau_straggling {
   }
   template <scalar Scalar>
   [[nodiscard]] Scalar variance(const crossing_particle<Scalar>& crossing, const particle& hypothesis, const slab& s) const {
-    const ionisation_kinematics<Scalar>& k = crossing.kinematics;
-    const Scalar xi = landau_xi(k, hypothesis, s.medium, Scalar(crossing.path_over_thickness * Scalar(s.thickness)));
-    const double total_over_slab = s.thickness > 0.0 ? traversed_layers * layer_thickness(s) / s.thickness : 1.0;
-    const Scalar core = xi * xi * Scalar(landau::core_width * landau::core_width * total_over_slab);
-    return smaller_of(core, bohr_variance(xi, k));
+    return prepared(hypothesis, slab_stack<1>{}.add(s)).variance(crossing);
+  }
+  template <std::size_t Capacity>
+  [[nodiscard]] prepared_landau_straggling<Capacity> prepared(const particle& hypothesis, const slab_stack<Capacity>& stack) const {
+    prepared_landau_straggling<Capacity> out;
+    for (const slab& s : stack) {
+      const double core = landau::core_width * landau::core_width * traversed_layers;
+      if (s.thickness > 0.0) out.slabs.push_back({landau_xi_per_mm(hypothesis, s.medium) * s.thickness, core * layer_thickness(s) / s.thickness});
+    }
+    return out;
   }
 };
 

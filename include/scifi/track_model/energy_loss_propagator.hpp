@@ -17,6 +17,12 @@
 
 namespace scifi {
 
+/// A propagated slope_state with what the formulae of the material at the start of the leg share, for the noise to use again.
+template <class Scalar>
+struct propagated_in_matter : kalman::propagated<Scalar, 5> {
+  crossing_particle<Scalar> crossing;  ///< set where the leg has material
+};
+
 /// A propagator of slope_state that flies with another one and loses energy in the material of the leg.
 ///
 /// The flight takes a distance (helix_propagator) or a `stretch` (nystrom_propagator).
@@ -27,36 +33,47 @@ namespace scifi {
 template <class Flight, class EnergyLoss>
 struct energy_loss_propagator {
   using state_space = slope_state;
+  static constexpr auto unit_columns = kalman::unit_columns<Flight>;
   Flight flight;
   EnergyLoss loss;
   particle hypothesis;
   int travel = 1;  ///< direction of the particle in z: +1 or -1
 
-  /// State (5, slope_state) at the end of the leg and its Jacobian d_end_d_start (5 x 5).
-  template <class Scalar>
-  [[nodiscard]] kalman::propagated<Scalar, 5> propagate(const vector<Scalar, 5>& start, const leg& step) const {
+  /// State (5, slope_state) at the end of the leg and its Jacobian d_end_d_start (5 x 5). The leg is a `leg` or a `prepared_leg`.
+  template <class Scalar, class Leg>
+  [[nodiscard]] auto propagate(const vector<Scalar, 5>& start, const Leg& step) const {
+    if constexpr (std::is_same_v<EnergyLoss, no_energy_loss>) return flown(flight, start, step);
+    else return through_matter(start, step);
+  }
+
+ private:
+  template <class Scalar, class Leg>
+  [[nodiscard]] propagated_in_matter<Scalar> through_matter(const vector<Scalar, 5>& start, const Leg& step) const {
     using s = slope_state;
     using std::sqrt;
-    if (std::is_same_v<EnergyLoss, no_energy_loss> || (step.start.empty() && step.gap.empty() && step.finish.empty())) return flown(flight, start, step);
-
+    propagated_in_matter<Scalar> end;
+    if (step.start.empty() && step.gap.empty() && step.finish.empty()) {
+      fly(end, start, step);
+      return end;
+    }
     const Scalar tx = start[s::tx];
     const Scalar ty = start[s::ty];
     const Scalar path = sqrt(Scalar(1.0) + tx * tx + ty * ty);
     const Scalar p = path / magnitude(start[s::q_over_pz]);
     const Scalar sign(step.direction == travel ? 1.0 : -1.0);
     const crossing_particle<Scalar> crossing = crossing_particle_of(p, hypothesis, path);
-    const energy_loss<Scalar> before = loss_in_slabs(loss, crossing, hypothesis, step.start);
+    energy_loss<Scalar> before{Scalar(0.0), Scalar(0.0), Scalar(0.0)};
+    if (!step.start.empty()) before = loss_in_slabs(loss, crossing, hypothesis, step.start);
     energy_loss<Scalar> total = loss_in_slabs(loss, crossing, hypothesis, step.gap, step.finish);
-    total.value += before.value;
-    total.d_value_d_p += before.d_value_d_p;
-    total.d_value_d_path_factor += before.d_value_d_path_factor;
+    add_loss(total, before);
 
     const changed<Scalar> departing =
-        step.start.empty() ? changed<Scalar>{start[s::q_over_pz], Scalar(1.0), Scalar(0.0), Scalar(0.0)} : after_loss(start, p, path, sign, before);
-    const changed<Scalar> arriving = after_loss(start, p, path, sign, total);
+        step.start.empty() ? changed<Scalar>{start[s::q_over_pz], Scalar(1.0), Scalar(0.0), Scalar(0.0)} : after_loss(start, crossing, sign, before);
+    const changed<Scalar> arriving = after_loss(start, crossing, sign, total);
     vector<Scalar, 5> flying = start;
     flying[s::q_over_pz] = departing.q_over_pz;
-    kalman::propagated<Scalar, 5> end = flown(flight, flying, step);
+    fly(end, flying, step);
+    end.crossing = crossing;
 
     // The flight starts with the q/pz that the loss left, which the slopes at the start have a hand in.
     auto& j = end.jacobian;
@@ -66,18 +83,30 @@ struct energy_loss_propagator {
       j(i, s::ty) += by_k * departing.d_ty;
       j(i, s::q_over_pz) = by_k * departing.d_q_over_pz;
     }
-    // What is lost after the departure scales the q/pz that the flight, which may turn pz, leaves.
-    const Scalar scale = arriving.q_over_pz / departing.q_over_pz;
-    const Scalar flown_k = end.state[s::q_over_pz] / departing.q_over_pz;
-    for (int i = 0; i < s::dimension; ++i) j(s::q_over_pz, i) *= scale;
-    j(s::q_over_pz, s::tx) += flown_k * (arriving.d_tx - scale * departing.d_tx);
-    j(s::q_over_pz, s::ty) += flown_k * (arriving.d_ty - scale * departing.d_ty);
-    j(s::q_over_pz, s::q_over_pz) += flown_k * (arriving.d_q_over_pz - scale * departing.d_q_over_pz);
-    end.state[s::q_over_pz] *= scale;
+    if constexpr (requires { requires Flight::keeps_q_over_pz; }) {
+      j(s::q_over_pz, s::tx) = arriving.d_tx;
+      j(s::q_over_pz, s::ty) = arriving.d_ty;
+      j(s::q_over_pz, s::q_over_pz) = arriving.d_q_over_pz;
+      end.state[s::q_over_pz] = arriving.q_over_pz;
+    } else {
+      // What is lost after the departure scales the q/pz that the flight, which may turn pz, leaves.
+      const Scalar scale = arriving.q_over_pz / departing.q_over_pz;
+      const Scalar flown_k = end.state[s::q_over_pz] / departing.q_over_pz;
+      for (int i = 0; i < s::dimension; ++i) j(s::q_over_pz, i) *= scale;
+      j(s::q_over_pz, s::tx) += flown_k * (arriving.d_tx - scale * departing.d_tx);
+      j(s::q_over_pz, s::ty) += flown_k * (arriving.d_ty - scale * departing.d_ty);
+      j(s::q_over_pz, s::q_over_pz) += flown_k * (arriving.d_q_over_pz - scale * departing.d_q_over_pz);
+      end.state[s::q_over_pz] *= scale;
+    }
     return end;
   }
 
- private:
+  template <class Scalar, class Leg>
+  void fly(kalman::propagated<Scalar, 5>& end, const vector<Scalar, 5>& start, const Leg& step) const {
+    if constexpr (requires { flight.propagate_into(end, start, step.dz); }) flight.propagate_into(end, start, step.dz);
+    else end = flown(flight, start, step);
+  }
+
   /// q/pz after some material and its derivatives in q/pz and the slopes before.
   template <class Scalar>
   struct changed {
@@ -85,18 +114,20 @@ struct energy_loss_propagator {
   };
 
   template <class Scalar>
-  [[nodiscard]] changed<Scalar> after_loss(const vector<Scalar, 5>& at, const Scalar& p, const Scalar& path, const Scalar& sign, const energy_loss<Scalar>& lost) const {
+  [[nodiscard, gnu::always_inline]] changed<Scalar> after_loss(const vector<Scalar, 5>& at, const crossing_particle<Scalar>& c, const Scalar& sign, const energy_loss<Scalar>& lost) const {
     using s = slope_state;
     const Scalar k = at[s::q_over_pz];
-    const momentum_change<Scalar> m = momentum_after_loss(p, hypothesis.mass, Scalar(sign * lost.value));
-    const Scalar d_new_d_p = m.d_new_d_p + m.d_new_d_loss * sign * lost.d_value_d_p;       // at fixed path
-    const Scalar d_new_d_path = m.d_new_d_loss * sign * lost.d_value_d_path_factor;        // at fixed p
-    const Scalar per_p = Scalar(1.0) / m.p_new;
-    const Scalar k_new = k * p * per_p;
-    const Scalar k_per_p = k_new * per_p;
+    const Scalar energy = c.kinematics.gamma * Scalar(hypothesis.mass);
+    const Scalar per_energy = c.kinematics.gamma * c.kinematics.per_gamma_squared * Scalar(1.0 / hypothesis.mass);
+    const momentum_change<Scalar> m = momentum_after_loss(c.p, hypothesis.mass, energy, per_energy, Scalar(sign * lost.value));
+    const Scalar d_new_d_p = m.d_new_d_p + m.d_new_d_loss * sign * lost.d_value_d_p;  // at fixed path
+    const Scalar d_new_d_path = m.d_new_d_loss * sign * lost.d_value_d_path_factor;   // at fixed p
+    const Scalar p_over_new = c.p * m.per_new;
+    const Scalar k_new = k * p_over_new;
     // p = path / |k|, k' = sign(k) path / p'.
-    const Scalar d_path_over_path = (k_new - k_per_p * (d_new_d_p * p + d_new_d_path * path)) / (path * path);
-    return {k_new, Scalar(k_per_p * p / k * d_new_d_p), Scalar(d_path_over_path * at[s::tx]), Scalar(d_path_over_path * at[s::ty])};
+    const Scalar path2 = c.path_over_thickness * c.path_over_thickness;
+    const Scalar d_path_over_path = (k_new - k_new * m.per_new * (d_new_d_p * c.p + d_new_d_path * c.path_over_thickness)) / path2;
+    return {k_new, Scalar(p_over_new * p_over_new * d_new_d_p), Scalar(d_path_over_path * at[s::tx]), Scalar(d_path_over_path * at[s::ty])};
   }
 };
 
@@ -107,6 +138,7 @@ energy_loss_propagator(Flight, EnergyLoss, particle, int) -> energy_loss_propaga
 template <class Flight>
 struct leg_propagator {
   using state_space = typename Flight::state_space;
+  static constexpr auto unit_columns = kalman::unit_columns<Flight>;
   Flight flight;
   [[nodiscard]] auto transition(const leg& step) const { return flight.transition(step.dz); }
 };

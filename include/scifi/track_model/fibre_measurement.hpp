@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MPL-2.0
 #pragma once
 
+#include <array>
+
 #include <scifi/core/linalg.hpp>
 
 namespace scifi {
@@ -8,17 +10,18 @@ namespace scifi {
 /// One measured coordinate alpha of a plane at constant z: alpha = cos x + sin y - offset. For any state space with components x and y.
 ///
 /// `projection()` is the row H; the offset of the plane (mm) is added to the measured value so that the model is linear without a constant.
-template <class StateSpace>
+template <class StateSpace, class Scalar = double>
 struct fibre_measurement {
   using state_space = StateSpace;
-  double alpha = 0.0;           ///< measured, plane frame, mm
-  double alpha_variance = 1.0;  ///< mm^2
+  static constexpr std::array seen_components{StateSpace::x, StateSpace::y};
+  Scalar alpha{0.0};           ///< measured, plane frame, mm
+  Scalar alpha_variance{1.0};  ///< mm^2
   double cos_angle = 1.0;
   double sin_angle = 0.0;
   double offset = 0.0;  ///< mm
 
-  [[nodiscard]] double value() const { return alpha + offset; }
-  [[nodiscard]] double covariance() const { return alpha_variance; }
+  [[nodiscard]] Scalar value() const { return alpha + Scalar(offset); }
+  [[nodiscard]] Scalar covariance() const { return alpha_variance; }
   [[nodiscard]] matrix<double, 1, StateSpace::dimension> projection() const {
     matrix<double, 1, StateSpace::dimension> h = matrix<double, 1, StateSpace::dimension>::Zero();
     h(0, StateSpace::x) = cos_angle;
@@ -31,6 +34,7 @@ struct fibre_measurement {
 template <class StateSpace>
 struct point_measurement {
   using state_space = StateSpace;
+  static constexpr std::array seen_components{StateSpace::x, StateSpace::y};
   vector<double, 2> position = vector<double, 2>::Zero();
   matrix<double, 2, 2> position_covariance = matrix<double, 2, 2>::Identity();
 

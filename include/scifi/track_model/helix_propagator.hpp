@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MPL-2.0
 #pragma once
 
+#include <array>
+
 #include <scifi/core/linalg.hpp>
 #include <scifi/core/trigonometry.hpp>
 #include <scifi/kalman/concepts.hpp>
@@ -17,11 +19,21 @@ namespace scifi {
 /// direction of travel, of the field and of dz; the straight line is the limit of zero field or zero q/pz.
 struct helix_propagator {
   using state_space = slope_state;
+  static constexpr std::array unit_columns{slope_state::x, slope_state::y};
+  static constexpr bool keeps_q_over_pz = true;
   double field = 0.0;  ///< Bz in the tracker frame, (MeV/c)/(e mm): B in tesla times units::tesla
 
   /// State (5, slope_state) after dz (mm, either sign) and its Jacobian d_end_d_start (5 x 5). A number that is not finite passes through.
   template <class Scalar>
   [[nodiscard]] kalman::propagated<Scalar, 5> propagate(const vector<Scalar, 5>& start, double dz) const {
+    kalman::propagated<Scalar, 5> end;
+    propagate_into(end, start, dz);
+    return end;
+  }
+
+  /// The same, written where it is to stay.
+  template <class Scalar>
+  void propagate_into(kalman::propagated<Scalar, 5>& end, const vector<Scalar, 5>& start, double dz) const {
     using s = slope_state;
     const Scalar length = Scalar(dz);
     const Scalar per_k = Scalar(field * dz);
@@ -31,7 +43,6 @@ struct helix_propagator {
     const Scalar tx_end = tx * t.cosine + ty * t.sine;
     const Scalar ty_end = ty * t.cosine - tx * t.sine;
 
-    kalman::propagated<Scalar, 5> end;
     end.state[s::x] = start[s::x] + length * (t.s1 * tx + t.c1 * ty);
     end.state[s::y] = start[s::y] + length * (t.s1 * ty - t.c1 * tx);
     end.state[s::tx] = tx_end;
@@ -52,7 +63,6 @@ struct helix_propagator {
     j(s::y, s::q_over_pz) = length * per_k * (t.d_s1 * ty - t.d_c1 * tx);
     j(s::tx, s::q_over_pz) = per_k * ty_end;
     j(s::ty, s::q_over_pz) = -per_k * tx_end;
-    return end;
   }
 };
 
@@ -62,6 +72,7 @@ struct helix_propagator {
 /// is the straight line along z.
 struct momentum_helix_propagator {
   using state_space = helix_state;
+  static constexpr std::array unit_columns{helix_state::x, helix_state::y};
   double field = 0.0;  ///< Bz in the tracker frame, (MeV/c)/(e mm)
   int travel = 1;
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cmath>
+#include <utility>
 
 #include <scifi/core/linalg.hpp>
 #include <scifi/core/scalar.hpp>
@@ -41,14 +42,20 @@ struct material_noise {
   particle hypothesis;
 
   /// 5 x 5 covariance at the end of the leg; `moved` is what the propagator made of `start`. Widths are taken at the momentum at the start.
-  template <class Scalar>
-  [[nodiscard]] matrix<Scalar, 5, 5> covariance(const vector<Scalar, 5>& start, const leg& step, const kalman::propagated<Scalar, 5>& moved) const {
+  template <class Scalar, class Leg, class Moved>
+  [[nodiscard]] matrix<Scalar, 5, 5> covariance(const vector<Scalar, 5>& start, const Leg& step, const Moved& moved) const {
     using s = slope_state;
     using std::sqrt;
     matrix<Scalar, 5, 5> q = matrix<Scalar, 5, 5>::Zero();
     if (step.start.empty() && step.gap.empty() && step.finish.empty()) return q;
-    const Scalar path = sqrt(Scalar(1.0) + square(Scalar(start[s::tx])) + square(Scalar(start[s::ty])));
-    const crossing_particle<Scalar> crossing = crossing_particle_of(Scalar(path / magnitude(start[s::q_over_pz])), hypothesis, path);
+    const crossing_particle<Scalar>& crossing = [&]() -> decltype(auto) {
+      if constexpr (requires { moved.crossing; }) {
+        return (moved.crossing);
+      } else {
+        const Scalar path = sqrt(Scalar(1.0) + square(Scalar(start[s::tx])) + square(Scalar(start[s::ty])));
+        return crossing_particle_of(Scalar(path / magnitude(start[s::q_over_pz])), hypothesis, path);
+      }
+    }();
 
     if (!step.finish.empty()) add_kick(q, scatter(moved.state, crossing, step.finish));
     if (!step.gap.empty()) {
@@ -89,19 +96,21 @@ struct material_noise {
     Scalar tx_tx, tx_ty, ty_ty, tx_k, ty_k, k_k;
   };
 
-  template <class Scalar, std::size_t N>
-  [[nodiscard]] kick<Scalar> scatter(const vector<Scalar, 5>& at, const crossing_particle<Scalar>& crossing, const slab_stack<N>& stack) const {
+  template <class Scalar, class Stack>
+  [[nodiscard]] kick<Scalar> scatter(const vector<Scalar, 5>& at, const crossing_particle<Scalar>& crossing, const Stack& stack) const {
     using s = slope_state;
     const Scalar tx = at[s::tx];
     const Scalar ty = at[s::ty];
     const Scalar k = at[s::q_over_pz];
     const Scalar t2 = tx * tx + ty * ty;
-    const Scalar angle = variance_in_slabs(scattering, crossing, hypothesis, stack);
-    const Scalar energy = variance_in_slabs(straggling, crossing, hypothesis, stack);
+    const auto [angle, energy] = [&]() -> std::pair<Scalar, Scalar> {
+      if constexpr (requires { stack.angle_variance(crossing); }) return {stack.angle_variance(crossing), stack.energy_variance(crossing)};
+      else return {variance_in_slabs(scattering, crossing, hypothesis, stack), variance_in_slabs(straggling, crossing, hypothesis, stack)};
+    }();
     const matrix<Scalar, 2, 2> c = slope_covariance(tx, ty, angle);
     const Scalar along = angle * (Scalar(1.0) + t2) * k;
     // d(q/pz)/dE = -(q/pz)/p dp/dE, dp/dE = E/p = 1/beta.
-    const Scalar d_k_d_e2 = k * k / (crossing.p * crossing.p * crossing.kinematics.beta_squared);
+    const Scalar d_k_d_e2 = k * k * crossing.per_p_beta_squared;
     return {c(0, 0), c(0, 1), c(1, 1), Scalar(along * tx), Scalar(along * ty), Scalar(angle * t2 * k * k + energy * d_k_d_e2)};
   }
 

@@ -3,7 +3,6 @@
 
 #include <scifi/core/linalg.hpp>
 #include <scifi/kalman/concepts.hpp>
-#include <scifi/track_model/leg.hpp>
 
 namespace scifi {
 
@@ -13,9 +12,9 @@ struct stretch {
   double dz = 0.0;  ///< signed distance, mm
 };
 
-/// Flies the length of a leg, material left out, with a propagator that takes a `stretch` or, where the place does not matter, a distance.
-template <class Flight, class Scalar>
-[[nodiscard]] kalman::propagated<Scalar, 5> flown(const Flight& flight, const vector<Scalar, 5>& start, const leg& step) {
+/// Flies the length of a leg or prepared leg, material left out, with a propagator that takes a `stretch` or, where the place does not matter, a distance.
+template <class Flight, class Scalar, class Leg>
+[[nodiscard]] kalman::propagated<Scalar, 5> flown(const Flight& flight, const vector<Scalar, 5>& start, const Leg& step) {
   if constexpr (kalman::general_propagator<Flight, Scalar, 5, stretch>) return kalman::propagate(flight, start, stretch{step.z, step.dz});
   else return kalman::propagate(flight, start, step.dz);
 }

@@ -353,3 +353,78 @@ TEST_CASE("buffers handed in again change nothing", "[candidate_to_track]") {
     CHECK(tracks[0].chi2 == fresh.result.chi2);
   }
 }
+
+TEST_CASE("tracks fitted together are those fitted alone: of both shapes, with planes and stations missing, and where one fails", "[candidate_to_track]") {
+  const tracker& t = in(mice::upstream);
+  track_fit_options o;
+  o.field = three_tesla;
+  const track_fitter fitter(t, o, muon_plus, median_energy_loss{5.0}, highland_scattering{}, landau_straggling{5.0});
+  const toys bent(t, three_tesla, 1), straight(t, 0.0, 1);
+  std::vector<job> jobs;
+  for (std::uint64_t number = 0; jobs.size() < 45; ++number) {
+    vector<double, 5> truth;
+    job j;
+    if (!(number % 7 == 3 ? straight : bent).make(number, truth, j)) continue;
+    if (number % 3 == 1) j.points[number % j.points.size()].clusters.pop_back();  // a plane without a cluster
+    if (number % 5 == 2) {                                                       // a station without a point
+      auto kept = j.found.space_points;
+      j.found.space_points.clear();
+      for (const int p : kept)
+        if (p != 1) j.found.space_points.push_back(p);
+    }
+    if (number % 11 == 4) j.found.seed.mean[slope_state::q_over_pz] *= 8.0;      // it stops on the way
+    jobs.push_back(std::move(j));
+  }
+  std::vector<fit_job> together;
+  for (std::size_t i = 0; i < jobs.size(); ++i) together.push_back({&jobs[i].found, static_cast<int>(i), jobs[i].points, jobs[i].clusters});
+  std::vector<fitted_track> out;
+  decltype(fitter)::buffers work;
+  fitter.fit_batch(together, out, work);
+  REQUIRE(out.size() == jobs.size());
+
+  int failed = 0;
+  for (std::size_t i = 0; i < jobs.size(); ++i) {
+    INFO("candidate " << i);
+    const fitted alone = fit(fitter, jobs[i]);
+    const track& a = alone.result;
+    const track& b = out[i].summary;
+    CHECK(b.candidate == static_cast<int>(i));
+    CHECK(b.shape == a.shape);
+    REQUIRE(b.status == a.status);
+    REQUIRE(out[i].points.size() == alone.points.size());
+    if (!a.status.ok()) {
+      ++failed;
+      continue;
+    }
+    CHECK(b.charge == a.charge);
+    CHECK(b.ndf == a.ndf);
+    CHECK(b.planes == a.planes);
+    CHECK(b.stations == a.stations);
+    // The first measurements shrink the wide prior's variances by 1e4 to 1e6, which makes 1e-16 of rounding 1e-11 here, and the smoother's
+    // difference P - P L P a further 1e5 in the errors at the first surfaces.
+    CHECK(b.chi2 == Approx(a.chi2).epsilon(1e-10));
+    const auto same = [](const kalman::estimate<double, 5>& x, const kalman::estimate<double, 5>& y, double of_sigma) {
+      for (int r = 0; r < 5; ++r) {
+        CHECK(std::abs(x.mean[r] - y.mean[r]) <= 1e-9 * kalman::sigma(y, r));
+        CHECK(kalman::sigma(x, r) == Approx(kalman::sigma(y, r)).epsilon(of_sigma));
+      }
+      CHECK((x.mean - y.mean).norm() <= 1e-12 * y.mean.norm());
+    };
+    same(b.reference, a.reference, 1e-10);
+    for (std::size_t k = 0; k < alone.points.size(); ++k) {
+      const track_point& p = alone.points[k];
+      const track_point& q = out[i].points[k];
+      CHECK(q.station == p.station);
+      CHECK(q.cluster == p.cluster);
+      same(q.smoothed, p.smoothed, 1e-5);
+      if (p.cluster >= 0) CHECK(q.pull == Approx(p.pull).epsilon(1e-6).margin(1e-9));
+    }
+  }
+  CHECK(failed > 0);
+  CHECK(failed < 10);
+
+  // The memory handed in again gives the same.
+  std::vector<fitted_track> again = out;
+  fitter.fit_batch(together, again, work);
+  for (std::size_t i = 0; i < jobs.size(); ++i) CHECK(again[i].summary.chi2 == out[i].summary.chi2);
+}

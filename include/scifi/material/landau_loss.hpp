@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+
+#include <scifi/core/constants.hpp>
+#include <scifi/core/inline_vector.hpp>
+#include <scifi/core/scalar.hpp>
+#include <scifi/material/density_effect.hpp>
+#include <scifi/material/kinematics.hpp>
+#include <scifi/material/landau.hpp>
+#include <scifi/material/particle.hpp>
+#include <scifi/material/slab.hpp>
+
+namespace scifi {
+
+/// Energy lost in a slab, MeV, never negative; a particle followed against its flight gains it.
+/// Derivatives in the momentum (MeV per MeV/c) and in path_over_thickness (MeV).
+template <scalar Scalar>
+struct energy_loss {
+  Scalar value;
+  Scalar d_value_d_p;
+  Scalar d_value_d_path_factor;
+};
+
+/// What the loss in a slab about Landau's mode takes of the slab and the charge: all that does not depend on the momentum.
+struct landau_slab {
+  double xi = 0.0;        ///< MeV, for beta = 1 along the normal; zero where nothing is lost
+  double log_mode = 0.0;  ///< constants under the logarithms of the mode, gathered, with the offset from it
+  double log_mean = 0.0;  ///< the same of the mean
+  double mean_over_mode = 1.0;
+  material::sternheimer density_effect{};
+};
+
+/// Prepares the mode plus `offset` xi of the loss in `layers` equal layers, the share of one slab.
+[[nodiscard]] inline landau_slab landau_slab_of(const particle& hypothesis, const slab& s, double layers, double offset) {
+  const double excitation = s.medium.mean_excitation_energy;
+  const double xi_per_mm = landau_xi_per_mm(hypothesis, s.medium);
+  if (!(s.thickness > 0.0) || !(xi_per_mm > 0.0)) return {};
+  const double twice_mass = 2.0 * constants::electron_mass / (excitation * excitation);
+  const double log_mode = std::log(twice_mass * xi_per_mm * layer_thickness(s) * layers) + landau::most_probable_offset + offset;
+  const double log_mean = std::log(twice_mass);
+  return {xi_per_mm * s.thickness, log_mode, log_mean, std::exp(log_mean - log_mode), s.medium.density_effect};
+}
+
+/// Sum over slabs of the mode plus offset, each between zero and the slab's mean loss.
+///
+/// Both are xi times a bracket that begins with ln(2 m_e beta^2 gamma^2 / I) - delta: Landau's goes on with ln(xi_total / I) + 0.200 - beta^2 (PDG 2024 eq. 34.12),
+/// twice Bethe's with ln(T_max / I) - 2 beta^2 (eq. 34.5).
+template <scalar Scalar, class Slabs>
+[[nodiscard, gnu::always_inline]] inline energy_loss<Scalar> loss_in_landau_slabs(const crossing_particle<Scalar>& c, const particle& hypothesis, const Slabs& slabs) {
+  using std::log;
+  const ionisation_kinematics<Scalar>& k = c.kinematics;
+  const Scalar zero(0.0);
+  const Scalar d_log_xi = Scalar(-2.0) * k.per_beta_gamma * k.per_gamma_squared;
+  const Scalar d_beta_squared = -k.beta_gamma * k.beta_gamma * d_log_xi * k.per_gamma_squared;
+  const Scalar d_log_u2 = Scalar(2.0) * k.per_beta_gamma - d_beta_squared;
+  const Scalar log_u2 = Scalar(2.0) * c.log_beta_gamma - k.beta_squared;
+  const Scalar of_mode = log_u2 + c.log_path_over_beta_squared;
+
+  energy_loss<Scalar> sum{zero, zero, zero};
+  for (const landau_slab& s : slabs) {
+    if (s.xi == 0.0) continue;
+    const density_effect_by_logarithm<Scalar> delta = density_effect_at_log(c.log_beta_gamma, s.density_effect);
+    Scalar bracket = of_mode + Scalar(s.log_mode);
+    Scalar d_bracket = d_log_xi;
+    Scalar by_path(1.0);
+    // Mean - mode = ln(T_max ratio / (path / beta^2)) - beta^2: far from zero in a thin slab, so that its logarithm is seldom needed.
+    if (any_of(k.largest_transfer * Scalar(s.mean_over_mode) < c.path_over_beta_squared * Scalar(std::numbers::e))) {
+      const Scalar mean = log_u2 + log(k.largest_transfer) - k.beta_squared + Scalar(s.log_mean);
+      const auto thick = mean < bracket;
+      bracket = select(thick, mean, bracket);
+      d_bracket = select(thick, Scalar(k.d_log_largest_transfer - d_beta_squared), d_bracket);
+      by_path = select(thick, zero, by_path);
+    }
+    bracket -= delta.value;
+    d_bracket += d_log_u2 - delta.d_value_d_log * k.per_beta_gamma;
+    const Scalar xi_normal = Scalar(s.xi) * k.per_beta_squared;
+    const Scalar xi = xi_normal * c.path_over_thickness;
+    const auto thin = bracket < zero;
+    sum.value += select(thin, zero, Scalar(xi * bracket));
+    sum.d_value_d_p += select(thin, zero, Scalar(xi * (d_log_xi * bracket + d_bracket) * Scalar(1.0 / hypothesis.mass)));
+    sum.d_value_d_path_factor += select(thin, zero, Scalar(xi_normal * (bracket + by_path)));
+  }
+  return sum;
+}
+
+/// The loss in a stack of slabs, prepared for any momentum.
+template <std::size_t Capacity>
+struct prepared_landau_loss {
+  particle hypothesis;
+  inline_vector<landau_slab, Capacity> slabs;
+
+  template <scalar Scalar>
+  [[nodiscard]] energy_loss<Scalar> loss(const crossing_particle<Scalar>& crossing) const {
+    return loss_in_landau_slabs(crossing, hypothesis, slabs);
+  }
+};
+
+}  // namespace scifi
