@@ -3,6 +3,7 @@
 
 #include <scifi/kalman/automatic_jacobian.hpp>
 #include <scifi/track_model/helix_propagator.hpp>
+#include <scifi/track_model/leg.hpp>
 #include <scifi/track_model/slope_state.hpp>
 
 #include "support/catch.hpp"
