@@ -134,11 +134,15 @@ struct pack {
 
 }  // namespace scifi
 
+namespace Eigen {
+
 /// What Eigen needs of a number to build matrices of it.
 template <class T, int Lanes>
-struct Eigen::NumTraits<scifi::pack<T, Lanes>> : Eigen::GenericNumTraits<T> {
+struct NumTraits<scifi::pack<T, Lanes>> : GenericNumTraits<T> {
   using Real = scifi::pack<T, Lanes>;
   using NonInteger = scifi::pack<T, Lanes>;
   using Literal = T;
   using Nested = scifi::pack<T, Lanes>;
 };
+
+}  // namespace Eigen

@@ -122,7 +122,7 @@ struct energy_loss_propagator {
     const momentum_change<Scalar> m = momentum_after_loss(c.p, hypothesis.mass, energy, per_energy, Scalar(sign * lost.value));
     const Scalar d_new_d_p = m.d_new_d_p + m.d_new_d_loss * sign * lost.d_value_d_p;  // at fixed path
     const Scalar d_new_d_path = m.d_new_d_loss * sign * lost.d_value_d_path_factor;   // at fixed p
-    const Scalar p_over_new = c.p * m.per_new;
+    const Scalar p_over_new = c.p * m.p_new * m.per_new * m.per_new;  // p / p', and NaN for a particle that stopped
     const Scalar k_new = k * p_over_new;
     // p = path / |k|, k' = sign(k) path / p'.
     const Scalar path2 = c.path_over_thickness * c.path_over_thickness;
