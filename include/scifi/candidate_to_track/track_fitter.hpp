@@ -11,7 +11,9 @@
 
 #include <scifi/candidate_to_track/fit_memory.hpp>
 #include <scifi/candidate_to_track/fit_path.hpp>
+#include <scifi/candidate_to_track/fit_probability.hpp>
 #include <scifi/candidate_to_track/fit_stops.hpp>
+#include <scifi/candidate_to_track/robust_refit.hpp>
 #include <scifi/candidate_to_track/write_track.hpp>
 #include <scifi/core/lane.hpp>
 #include <scifi/core/pack_math.hpp>
@@ -49,8 +51,9 @@ struct track_fit_options {
 ///
 /// All material and the policies given act between the surfaces. Linearised about a reference track, so that the first, badly known slopes do no harm.
 /// `Flight` carries a bent track in vacuum: the helix of `options.field`, or a nystrom_propagator in any field. `fit_batch` fits many at once, one in
-/// each SIMD lane. Const, shared between threads.
-template <class EnergyLoss, class Scattering, class Straggling, class Update = kalman::symmetric_form, class Gate = kalman::no_gate, class Flight = helix_propagator>
+/// each SIMD lane. `Refit` (robust_refit) may have a second look at a track that fits badly, `Probability` says how badly. Const, shared between threads.
+template <class EnergyLoss, class Scattering, class Straggling, class Update = kalman::symmetric_form, class Gate = kalman::no_gate, class Flight = helix_propagator,
+          class Refit = no_refit, class Probability = gaussian_probability>
 class track_fitter {
  public:
   using helix_filter = kalman::filter<energy_loss_propagator<Flight, EnergyLoss>, material_noise<Scattering, Straggling>, Update, Gate>;
@@ -66,8 +69,10 @@ class track_fitter {
 
   /// With a flight of one's own, in the tracker frame; `options.field` then serves only the seed, on its short way from the candidate to the first surface.
   track_fitter(const tracker& where, const track_fit_options& options, const particle& hypothesis, EnergyLoss loss, Scattering scattering, Straggling straggling,
-               Update update, Gate gate, Flight flight)
+               Update update, Gate gate, Flight flight, Refit refit = {}, Probability probability = {})
       : options_(options),
+        refit_(refit),
+        probability_(probability),
         travel_(where.beam_direction),
         path_(fit_path_of(where)),
         helix_({flight, loss, hypothesis, where.beam_direction}, {scattering, straggling, hypothesis}, update, gate),
@@ -82,6 +87,8 @@ class track_fitter {
     fit_memory<line_state, double, leg> line;
     fitted_track one;
     std::vector<std::size_t> in_lanes;
+    robust_refit::buffers<slope_state> helix_again;
+    robust_refit::buffers<line_state> line_again;
   };
 
   /// Fits one candidate; appends its track and its track points. A failed fit is appended too, with its status and no points.
@@ -112,8 +119,10 @@ class track_fitter {
           fitted[lane] = &out[work.in_lanes[done + lane]];
         }
         fit_helices(together, fitted, work.helices);
-        for (std::size_t lane = 0; lane < width; ++lane)
-          if (!fitted[lane]->summary.status.ok()) fit_one(together[lane], *fitted[lane], work);
+        for (std::size_t lane = 0; lane < width; ++lane) {
+          if (fitted[lane]->summary.status.ok()) look_at_helix_again(together[lane], *fitted[lane], work);
+          else fit_one(together[lane], *fitted[lane], work);
+        }
       }
     }
     for (; done < work.in_lanes.size(); ++done) fit_one(jobs[work.in_lanes[done]], out[work.in_lanes[done]], work);
@@ -124,31 +133,39 @@ class track_fitter {
   static constexpr bool lanes_agree = std::same_as<Flight, helix_propagator>;
 
   void fit_one(const fit_job& job, fitted_track& out, buffers& work) const {
-    if (job.from->shape == track_shape::helix) return fit_helices(std::array{job}, std::array{&out}, work.helix);
+    if (job.from->shape == track_shape::helix) {
+      fit_helices(std::array{job}, std::array{&out}, work.helix);
+      return look_at_helix_again(job, out, work);
+    }
     const vector<double, 5> seed = seed_of(*job.from);
     const vector<double, 4> line = slopes_to_line(seed).state;
     const double k = seed[slope_state::q_over_pz];
-    fit(line_, path_.legs, wide<line_state>(line), line, std::array{job}, std::array{&out}, work.line, [](const auto&, const auto&) { return true; },  // a line is linear
-        [k](const auto& e) { return convert(e, [k](const vector<double, 4>& x) { return line_to_slopes(x, k); }); });
+    const auto to_slopes = [k](const auto& e) { return convert(e, [k](const vector<double, 4>& x) { return line_to_slopes(x, k); }); };
+    fit(line_, path_.legs, wide<line_state>(line), line, std::array{job}, std::array{&out}, work.line, [](const auto&, const auto&) { return true; }, to_slopes);  // a line is linear
+    if constexpr (!std::same_as<Refit, no_refit>)
+      look_again<line_state>(refit_, line_, path_, travel_, wide<line_state>(line), job, [](const vector<double, 5>& s) { return slopes_to_line(s).state; }, to_slopes, work.line_again, out);
+  }
+
+  void look_at_helix_again([[maybe_unused]] const fit_job& job, [[maybe_unused]] fitted_track& out, [[maybe_unused]] buffers& work) const {
+    if constexpr (!std::same_as<Refit, no_refit>) {
+      const auto same = [](const auto& s) { return s; };
+      look_again<slope_state>(refit_, helix_, path_, travel_, helix_start(seed_of(*job.from)), job, same, same, work.helix_again, out);
+    }
   }
 
   template <std::size_t Width, class Scalar>
   void fit_helices(const std::array<fit_job, Width>& jobs, const std::array<fitted_track*, Width>& out, fit_memory<slope_state, Scalar, helix_leg>& work) const {
     constexpr int k = slope_state::q_over_pz;
     vector<Scalar, 5> seed;
-    kalman::estimate<Scalar, 5> start;
     for (std::size_t lane = 0; lane < Width; ++lane) {
       const vector<double, 5> one = seed_of(*jobs[lane].from);
       for (int i = 0; i < 5; ++i) set_lane(seed[i], static_cast<int>(lane), one[i]);
     }
-    start = wide<slope_state>(seed);
-    start.mean[k] = select(seed[k] < Scalar(0.0), Scalar(-options_.prior.typical), Scalar(options_.prior.typical));
-    start.covariance(k, k) = Scalar(options_.prior.spread * options_.prior.spread);
     const auto settled = [this](const auto& reference, const auto& smoothed) {
       const Scalar share = Scalar(options_.settled) * magnitude(reference[k]);
       return magnitude(Scalar(smoothed.mean[k] - reference[k])) <= share && kalman::sigma(smoothed, k) <= Scalar(2.0) * share;
     };
-    fit(helix_, helix_legs_, start, seed, jobs, out, work, settled, [](const auto& e) { return e; });
+    fit(helix_, helix_legs_, helix_start(seed), seed, jobs, out, work, settled, [](const auto& e) { return e; });
   }
 
   /// The seed flown to the last surface.
@@ -165,6 +182,16 @@ class track_fitter {
     return e;
   }
 
+  /// The same for a helix, q/pz as the prior has it with the sign of the seed.
+  template <class Scalar>
+  [[nodiscard]] kalman::estimate<Scalar, 5> helix_start(const vector<Scalar, 5>& seed) const {
+    constexpr int k = slope_state::q_over_pz;
+    kalman::estimate<Scalar, 5> start = wide<slope_state>(seed);
+    start.mean[k] = select(seed[k] < Scalar(0.0), Scalar(-options_.prior.typical), Scalar(options_.prior.typical));
+    start.covariance(k, k) = Scalar(options_.prior.spread * options_.prior.spread);
+    return start;
+  }
+
   template <class Filter, class StateSpace, class Scalar, class Leg, std::size_t Width, class Settled, class ToSlopes>
   void fit(const Filter& filter, const std::vector<Leg>& legs, const kalman::estimate<Scalar, StateSpace::dimension>& start, const vector<Scalar, StateSpace::dimension>& seed,
            const std::array<fit_job, Width>& jobs, const std::array<fitted_track*, Width>& out, fit_memory<StateSpace, Scalar, Leg>& work, const Settled& settled,
@@ -179,7 +206,7 @@ class track_fitter {
       for (std::size_t lane = 0; lane < Width; ++lane) {
         if (written[lane] || !lane_of(ready, static_cast<int>(lane))) continue;
         written[lane] = true;
-        write_track(path_, travel_, work, jobs[lane], lane, to_slopes, *out[lane]);
+        write_track(path_, travel_, work, jobs[lane], lane, to_slopes, *out[lane], probability_);
       }
     };
     const auto result = kalman::run_relinearised(
@@ -196,6 +223,8 @@ class track_fitter {
   }
 
   track_fit_options options_;
+  [[no_unique_address]] Refit refit_;
+  [[no_unique_address]] Probability probability_;
   int travel_;
   fit_path path_;
   std::vector<helix_leg> helix_legs_;

@@ -10,7 +10,7 @@
 
 #include <scifi/candidate_to_track/fit_memory.hpp>
 #include <scifi/candidate_to_track/fit_path.hpp>
-#include <scifi/core/chi_squared.hpp>
+#include <scifi/candidate_to_track/fit_probability.hpp>
 #include <scifi/core/lane.hpp>
 #include <scifi/kalman/node_residual.hpp>
 #include <scifi/track_model/conversions.hpp>
@@ -44,9 +44,10 @@ inline void write_failure(const fit_path& path, const fit_job& job, kalman::stat
 
 namespace detail {
 
-/// Appends what the fit says at one surface.
+/// Appends what the fit says at one surface; returns the variance of the residual without its own measurement, infinite where there is none.
 template <class Node, class ToSlopes>
-void add_point(const Node& n, int lane, const surface& at, int cluster, const ToSlopes& to_slopes, fitted_track& out) {
+double add_point(const Node& n, int lane, const surface& at, int cluster, const ToSlopes& to_slopes, fitted_track& out) {
+  double variance = std::numeric_limits<double>::infinity();
   track_point p;
   p.station = at.station;
   p.plane = at.plane;
@@ -56,7 +57,8 @@ void add_point(const Node& n, int lane, const surface& at, int cluster, const To
   if (cluster >= 0) {
     const auto unbiased = kalman::unbiased_residual(n);
     p.residual = static_cast<double>(lane_of(unbiased.value(0), lane));
-    p.pull = p.residual / std::sqrt(static_cast<double>(lane_of(unbiased.covariance(0, 0), lane)));
+    variance = static_cast<double>(lane_of(unbiased.covariance(0, 0), lane));
+    p.pull = p.residual / std::sqrt(variance);
     p.chi2 = static_cast<double>(lane_of(n.chi2, lane));
     p.outlier = lane_of(n.outlier, lane);
     p.cluster = cluster;
@@ -68,6 +70,7 @@ void add_point(const Node& n, int lane, const surface& at, int cluster, const To
   }
   ++out.summary.points;
   out.points.push_back(p);
+  return variance;
 }
 
 /// What is wrong with one lane of a node.
@@ -89,9 +92,10 @@ template <class Node>
 
 }  // namespace detail
 
-/// Writes the track of one lane from the smoothed nodes of a fit: a failure with its status where the lane failed.
-template <class StateSpace, class Scalar, class Leg, class ToSlopes>
-void write_track(const fit_path& path, int travel, const fit_memory<StateSpace, Scalar, Leg>& work, const fit_job& job, std::size_t lane, const ToSlopes& to_slopes, fitted_track& out) {
+/// Writes the track of one lane from the smoothed nodes of a fit: a failure with its status where the lane failed. `probability` says how well it fits.
+template <class StateSpace, class Scalar, class Leg, class ToSlopes, class Probability = gaussian_probability>
+void write_track(const fit_path& path, int travel, const fit_memory<StateSpace, Scalar, Leg>& work, const fit_job& job, std::size_t lane, const ToSlopes& to_slopes, fitted_track& out,
+                 const Probability& probability = {}) {
   const std::size_t surfaces = path.surfaces.size();
   const int in = static_cast<int>(lane);
   kalman::status status{kalman::step_kind::smooth, kalman::reason::none};
@@ -109,11 +113,20 @@ void write_track(const fit_path& path, int travel, const fit_memory<StateSpace, 
     ++t.ndf;
   }
   t.ndf -= StateSpace::dimension;
-  t.p_value = chi_squared_probability(t.chi2, t.ndf);
   const kalman::estimate<double, 5> at_reference = to_slopes(lane_of(work.nodes[surfaces].smoothed, in));
   t.charge = (at_reference.mean[slope_state::q_over_pz] < 0.0 ? -1 : 1) * travel;
   t.reference = convert(at_reference, [travel](const vector<double, 5>& x) { return slopes_to_momentum(x, travel); });
-  for (std::size_t i = surfaces; i-- > 0;) detail::add_point(work.nodes[i], in, path.surfaces[i], work.cluster_at[lane * surfaces + i], to_slopes, out);
+  fit_summary how = closures_of(*job.from, job.points);
+  for (std::size_t i = surfaces; i-- > 0;) {
+    const int member = work.cluster_at[lane * surfaces + i];
+    const double variance = detail::add_point(work.nodes[i], in, path.surfaces[i], member, to_slopes, out);
+    // var(smoothed residual)/R = R/var(residual without its own measurement).
+    if (member >= 0 && !out.points.back().outlier) how.measurement += job.clusters[static_cast<std::size_t>(member)].variance / variance;
+  }
+  how.chi2 = t.chi2;
+  how.ndf = t.ndf;
+  how.inner_stations = std::max(0, t.stations - 2);
+  t.p_value = probability(how);
 }
 
 }  // namespace scifi

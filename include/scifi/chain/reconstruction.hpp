@@ -146,13 +146,14 @@ struct tracker_flight {
 template <class FlightIn>
 [[nodiscard]] auto make_reconstruction(const detector& where, const reconstruction_options& options, const FlightIn& flight_in) {
   const highland_scattering scattering;
-  // A track crosses all stations of its tracker, each one layer: its typical loss is the median of the total.
+  // Of the mean loss: pz is known much worse than losses fluctuate, so that the tail of the losses moves the middle of its errors as it moves their mean.
+  const mean_energy_loss loss;
+  // The width is that of the core of the loss over all stations, each one layer.
   std::size_t stations = 1;
   for (const tracker& t : where.trackers) stations = std::max(stations, t.stations.size());
-  const median_energy_loss loss{static_cast<double>(stations)};
   const landau_straggling straggling{static_cast<double>(stations)};
   using flight = decltype(flight_in(std::declval<const tracker&>()).flight);
-  using fitter = track_fitter<median_energy_loss, highland_scattering, landau_straggling, kalman::symmetric_form, kalman::no_gate, flight>;
+  using fitter = track_fitter<mean_energy_loss, highland_scattering, landau_straggling, kalman::symmetric_form, kalman::no_gate, flight, robust_refit, fibre_probability>;
 
   track_finder_options finding;
   finding.line_momentum = options.line_momentum;

@@ -30,7 +30,7 @@ struct track {
   int planes = 0;         ///< measurements used
   double chi2 = 0.0;
   int ndf = 0;
-  double p_value = 0.0;
+  double p_value = 0.0;   ///< as the fit's policy has it: in the standard chain of fibres and scattering as they are, not chi-squared's of chi2 and ndf
   kalman::status status;  ///< where and why the fit stopped, if it did
   double z = 0.0;         ///< of the reference surface, tracker frame, mm
   /// x, y (mm), px, py, pz (MeV/c) at the reference surface of the tracker and their 5 x 5 covariance, tracker frame.

@@ -132,12 +132,12 @@ class track_bound {
   std::vector<place> places_;
 };
 
-/// The bound with the physics of the standard chain (`make_reconstruction`): median energy loss and its straggling over all stations, Highland's scattering.
+/// The bound with the physics of the standard chain (`make_reconstruction`): mean energy loss, straggling of the core over all stations, Highland's scattering.
 template <plane_information Resolution = doublet_information>
 [[nodiscard]] auto make_track_bound(const tracker& where, double field, const particle& hypothesis = muon_plus, Resolution resolution = {},
                                     double prior_q_over_pz = std::numeric_limits<double>::infinity()) {
   const double layers = static_cast<double>(std::max<std::size_t>(1, where.stations.size()));
-  return track_bound(where, field, hypothesis, median_energy_loss{layers}, highland_scattering{}, landau_straggling{layers}, resolution, prior_q_over_pz);
+  return track_bound(where, field, hypothesis, mean_energy_loss{}, highland_scattering{}, landau_straggling{layers}, resolution, prior_q_over_pz);
 }
 
 }  // namespace scifi

@@ -23,7 +23,7 @@ using namespace scifi;
 
 namespace {
 
-using m = momentum_state;
+using in = momentum_state;
 
 vector<double, 5> truth_of(double x, double y, double px, double py, double pz) { return (vector<double, 5>() << x, y, px, py, pz).finished(); }
 
@@ -57,14 +57,14 @@ TEST_CASE("the bound of a helix is that of all measurements at once, from closed
 
   const auto surfaces = surfaces_along(where, 1);
   const auto helix = [&](const vector<double, 5>& s, double from, double z) -> vector<double, 2> {  // momentum_state at `from`
-    const double w = field / s[m::pz];
+    const double w = field / s[in::pz];
     const double angle = w * (z - from);
-    return {s[m::x] + (s[m::px] * std::sin(angle) + s[m::py] * (1.0 - std::cos(angle))) / field, s[m::y] + (s[m::py] * std::sin(angle) - s[m::px] * (1.0 - std::cos(angle))) / field};
+    return {s[in::x] + (s[in::px] * std::sin(angle) + s[in::py] * (1.0 - std::cos(angle))) / field, s[in::y] + (s[in::py] * std::sin(angle) - s[in::px] * (1.0 - std::cos(angle))) / field};
   };
   const auto turned = [&](const vector<double, 5>& s, double z) {
-    const double angle = field / s[m::pz] * z;
+    const double angle = field / s[in::pz] * z;
     const vector<double, 2> at = helix(s, 0.0, z);
-    return truth_of(at.x(), at.y(), s[m::px] * std::cos(angle) + s[m::py] * std::sin(angle), s[m::py] * std::cos(angle) - s[m::px] * std::sin(angle), s[m::pz]);
+    return truth_of(at.x(), at.y(), s[in::px] * std::cos(angle) + s[in::py] * std::sin(angle), s[in::py] * std::cos(angle) - s[in::px] * std::sin(angle), s[in::pz]);
   };
   Eigen::MatrixXd a(15, 5);
   Eigen::MatrixXd c = Eigen::MatrixXd::Zero(15, 15);
@@ -85,7 +85,7 @@ TEST_CASE("the bound of a helix is that of all measurements at once, from closed
     // The slabs on either side of the surface turn the momentum about two axes perpendicular to it, in their own middle.
     for (const auto& [stack, z] : {std::pair{&surfaces[i].below, surfaces[i].z - 0.5 * thickness(surfaces[i].below)}, std::pair{&surfaces[i].above, surfaces[i].z + 0.5 * thickness(surfaces[i].above)}}) {
       const vector<double, 5> here = turned(truth, z);
-      const vector<double, 3> p(here[m::px], here[m::py], here[m::pz]);
+      const vector<double, 3> p(here[in::px], here[in::py], here[in::pz]);
       const double path = p.norm() / p.z();
       double variance = 0.0;
       for (const slab& s : *stack) variance += highland_variance(p.norm(), muon_plus, radiation_lengths(s) * path, s.layer_radiation_lengths * path);
@@ -97,7 +97,7 @@ TEST_CASE("the bound of a helix is that of all measurements at once, from closed
           const double h = 1e-5;
           const auto kicked = [&](double by) {
             const vector<double, 3> q = p + by * p.norm() * axis;
-            return alpha(truth_of(here[m::x], here[m::y], q.x(), q.y(), q.z()), z, k);
+            return alpha(truth_of(here[in::x], here[in::y], q.x(), q.y(), q.z()), z, k);
           };
           reach(static_cast<Eigen::Index>(k)) = (kicked(h) - kicked(-h)) / (2.0 * h);
         }
@@ -110,7 +110,7 @@ TEST_CASE("the bound of a helix is that of all measurements at once, from closed
   for (int i = 0; i < 5; ++i)
     for (int j = 0; j < 5; ++j) CHECK(bound.momentum.covariance(i, j) == Approx(batch(i, j)).margin(0.005 * std::sqrt(batch(i, i) * batch(j, j))));
   const vector<double, 2> along = vector<double, 2>(30.0, 20.0).normalized();
-  CHECK(bound.pt == Approx(std::sqrt(along.dot(batch.block<2, 2>(m::px, m::px) * along))).epsilon(0.005));
+  CHECK(bound.pt == Approx(std::sqrt(along.dot(batch.block<2, 2>(in::px, in::px) * along))).epsilon(0.005));
 }
 
 TEST_CASE("flown backwards the opposite charge takes the same path and is known as well", "[information]") {
@@ -159,7 +159,7 @@ TEST_CASE("without a field the line is known and q/pz taken as known", "[informa
   const reference_bound line = bound_at(truth_of(0.0, 0.0, 20.0, 0.0, 200.0), 1);
   REQUIRE(line.known());
   CHECK(line.slopes.covariance(4, 4) == 0.0);
-  CHECK(kalman::sigma(line.momentum, m::pz) == 0.0);
+  CHECK(kalman::sigma(line.momentum, in::pz) == 0.0);
   // Three views at 120 degrees know x and y to 2/3 of one plane's variance: var(slope) = 2/3 d^2/12 / sum (z - <z>)^2, z of the stations.
   double mean = 0.0;
   double sum = 0.0;
@@ -205,12 +205,12 @@ TEST_CASE("the spreads that the makers of the Geant4 sample worked out are found
     for (const auto& [number, t] : tracks) {
       if (t.inside < 15) continue;
       const reference_bound b = bound_at(t.start, 1);
-      x.push_back(kalman::sigma(b.momentum, m::x));
-      x.push_back(kalman::sigma(b.momentum, m::y));
+      x.push_back(kalman::sigma(b.momentum, in::x));
+      x.push_back(kalman::sigma(b.momentum, in::y));
       transverse.push_back(b.pt);
-      const double true_pt = std::hypot(t.start[m::px], t.start[m::py]);
+      const double true_pt = std::hypot(t.start[in::px], t.start[in::py]);
       for (std::size_t i = 0; i < 9; ++i)
-        if (true_pt >= edges[i] && true_pt < edges[i + 1]) along[i].push_back(kalman::sigma(b.momentum, m::pz));
+        if (true_pt >= edges[i] && true_pt < edges[i + 1]) along[i].push_back(kalman::sigma(b.momentum, in::pz));
     }
     // Two programs that take the energy, the losses and the places of the material a little differently: 2 %; the printed figures are rounded to 0.5 %.
     CHECK(mixture_spread(x) == Approx(position).epsilon(0.01));
