@@ -21,7 +21,7 @@
 #include "support/shared_data.hpp"
 
 using namespace scifi;
-using at_start = momentum_state;
+using momentum_at = momentum_state;
 
 namespace {
 
@@ -62,7 +62,7 @@ void for_each_track(const std::filesystem::path& folder, const std::string& set,
     if (found == starts.end() || found->second.inside < 15 || e.tracks.size() != 1 || !e.tracks[0].status.ok()) continue;
     const auto& s = found->second.state;
     const auto& at = e.tracks[0].reference.mean;
-    if (std::hypot(at[at_start::x] - s[at_start::x], at[at_start::y] - s[at_start::y]) < 6.0 && std::hypot(at[at_start::px] - s[at_start::px], at[at_start::py] - s[at_start::py]) < 25.0) f(found->second, e.tracks[0]);
+    if (std::hypot(at[momentum_at::x] - s[momentum_at::x], at[momentum_at::y] - s[momentum_at::y]) < 6.0 && std::hypot(at[momentum_at::px] - s[momentum_at::px], at[momentum_at::py] - s[momentum_at::py]) < 25.0) f(found->second, e.tracks[0]);
   }
 }
 
@@ -86,11 +86,11 @@ TEST_CASE("p-values of muons are flat, and at low pt pz is uncertain and its pul
     test::sample low_pt_pull, x_low, x_high, px_low, px_high, sigma_low, sigma_high;
     for_each_track(*data / "g4", set, muon_plus, [&](const true_start& t, const track& k) {
       p.push_back(k.p_value);
-      const bool low = std::hypot(t.state[at_start::px], t.state[at_start::py]) < 5.0;
-      if (low) low_pt_pull.add((k.reference.mean[at_start::pz] - t.state[at_start::pz]) / kalman::sigma(k.reference, at_start::pz));
-      (low ? x_low : x_high).add(k.reference.mean[at_start::x] - t.state[at_start::x]);
-      (low ? px_low : px_high).add(k.reference.mean[at_start::px] - t.state[at_start::px]);
-      (low ? sigma_low : sigma_high).add(kalman::sigma(k.reference, at_start::pz));
+      const bool low = std::hypot(t.state[momentum_at::px], t.state[momentum_at::py]) < 5.0;
+      if (low) low_pt_pull.add((k.reference.mean[momentum_at::pz] - t.state[momentum_at::pz]) / kalman::sigma(k.reference, momentum_at::pz));
+      (low ? x_low : x_high).add(k.reference.mean[momentum_at::x] - t.state[momentum_at::x]);
+      (low ? px_low : px_high).add(k.reference.mean[momentum_at::px] - t.state[momentum_at::px]);
+      (low ? sigma_low : sigma_high).add(kalman::sigma(k.reference, momentum_at::pz));
     });
     REQUIRE(p.size() > 4000);
     INFO("distance of p " << distance_from_flat(p));

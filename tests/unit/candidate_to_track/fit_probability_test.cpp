@@ -30,21 +30,20 @@ TEST_CASE("nothing beyond the closures: the chi-squared probability", "[candidat
 }
 
 TEST_CASE("a p-value of sums drawn from the law it states is flat", "[candidate_to_track]") {
-  // Five degrees of freedom: 1.4 of measurement, the rest equal shares of the two angles of each of three stations, whose variance is drawn from the law.
+  // Six residuals of unit variance, two to a station, 28 % of it measurement and the rest the angle scattered there, whose variance is drawn from the law.
   const fibre_probability probability{{}, 1.0};
   constexpr std::size_t number = 20000;
   std::vector<double> p;
   random_stream random(3, 0, 0);
-  const double each = (5.0 - 1.4) / 6.0;
   for (std::size_t i = 0; i < number; ++i) {
-    double chi2 = 0.7 * (std::pow(random.normal(), 2) + std::pow(random.normal(), 2));
+    double chi2 = 0.0;
     for (int s = 0; s < 3; ++s) {
       const double u = random.uniform();
       const auto& t = probability.tail;
       const double v = t.variance[u < t.share[0] ? 0 : u < t.share[0] + t.share[1] ? 1 : 2];
-      chi2 += each * v * (std::pow(random.normal(), 2) + std::pow(random.normal(), 2));
+      chi2 += (0.28 + 0.72 * v) * (std::pow(random.normal(), 2) + std::pow(random.normal(), 2));
     }
-    p.push_back(probability({chi2 + 5.0, 10, 5.0, 5, 6.4, 3}));
+    p.push_back(probability({chi2 + 5.0, 11, 5.0, 5, 5.0 + 6.0 * 0.28, 3}));
   }
   std::sort(p.begin(), p.end());
   double distance = 0.0;
