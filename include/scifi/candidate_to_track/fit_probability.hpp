@@ -3,9 +3,12 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <span>
 
 #include <scifi/core/chi_squared.hpp>
 #include <scifi/core/gamma_probability.hpp>
+#include <scifi/event/candidate.hpp>
+#include <scifi/event/space_point.hpp>
 #include <scifi/material/scattering_tail.hpp>
 
 namespace scifi {
@@ -19,6 +22,18 @@ struct fit_summary {
   double measurement = 0.0;  ///< degrees of freedom that errors of measurement fill, the rest is scattering: sum of var(residual)/R of the smoothed residuals
   int inner_stations = 0;    ///< stations with measurements on either side: those whose scattering is seen
 };
+
+/// The summary of a candidate before its fit: the chi2 of its triplets, and how many there are.
+[[nodiscard]] inline fit_summary closures_of(const candidate& c, std::span<const space_point> points) {
+  fit_summary out;
+  for (const int i : c.space_points) {
+    const space_point& p = points[static_cast<std::size_t>(i)];
+    if (p.clusters.size() < 3) continue;
+    out.closure += p.chi2;
+    ++out.closures;
+  }
+  return out;
+}
 
 /// The p-value of Gaussian errors: chi-squared with ndf degrees of freedom.
 struct gaussian_probability {

@@ -29,6 +29,20 @@ TEST_CASE("nothing beyond the closures: the chi-squared probability", "[candidat
   CHECK(std::isnan(fibre_probability{}({0.0, 0, 0.0, 0, 0.0, 0})));
 }
 
+TEST_CASE("triplets close, doublets have nothing to close", "[candidate_to_track]") {
+  std::vector<space_point> points(3);
+  points[0].chi2 = 1.5;
+  points[0].clusters = {0, 1, 2};
+  points[1].clusters = {3, 4};
+  points[2].chi2 = 0.25;
+  points[2].clusters = {5, 6, 7};
+  candidate c;
+  c.space_points = {0, 1, 2};
+  const fit_summary f = closures_of(c, points);
+  CHECK(f.closures == 2);
+  CHECK(f.closure == 1.75);
+}
+
 TEST_CASE("a p-value of sums drawn from the law it states is flat", "[candidate_to_track]") {
   // Six residuals of unit variance, two to a station, 28 % of it measurement and the rest the angle scattered there, whose variance is drawn from the law.
   const fibre_probability probability{{}, 1.0};
