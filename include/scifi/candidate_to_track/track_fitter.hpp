@@ -155,13 +155,13 @@ class track_fitter {
 
   template <std::size_t Width, class Scalar>
   void fit_helices(const std::array<fit_job, Width>& jobs, const std::array<fitted_track*, Width>& out, fit_memory<slope_state, Scalar, helix_leg>& work) const {
-    constexpr int k = slope_state::q_over_pz;
     vector<Scalar, 5> seed;
     for (std::size_t lane = 0; lane < Width; ++lane) {
       const vector<double, 5> one = seed_of(*jobs[lane].from);
       for (int i = 0; i < 5; ++i) set_lane(seed[i], static_cast<int>(lane), one[i]);
     }
     const auto settled = [this](const auto& reference, const auto& smoothed) {
+      constexpr int k = slope_state::q_over_pz;
       const Scalar share = Scalar(options_.settled) * magnitude(reference[k]);
       return magnitude(Scalar(smoothed.mean[k] - reference[k])) <= share && kalman::sigma(smoothed, k) <= Scalar(2.0) * share;
     };
