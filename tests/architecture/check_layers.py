@@ -48,7 +48,7 @@ THIRD_PARTY = {"io": EIGEN + ("nlohmann/", "zlib.h", "fcntl.h", "unistd.h"),
                "conditions": EIGEN + ("sqlite3.h",),
                "study": EIGEN + ("boost/histogram/",)}
 # headers of the standard library with a slash or a suffix in their name
-STANDARD = ("experimental/simd", "immintrin.h")
+STANDARD = ("immintrin.h",)
 
 LONGEST_HEADER = 250
 SPDX = "SPDX-License-Identifier: MPL-2.0"
@@ -56,7 +56,7 @@ SPDX_SUFFIXES = {".hpp", ".cpp", ".py", ".cmake", ".in", ".txt", ".sh", ".md"}
 
 # header -> why it has no unit test of its own
 WITHOUT_TEST = {
-    "core/one_alignment.hpp": "check_alignment.py links with it",
+    "core/one_alignment.hpp": "check_eigen_alignment.py links with it",
     "core/constants.hpp": "data; every physics test leans on it",
     "event/candidate.hpp": "data without behaviour",
     "event/cluster.hpp": "data without behaviour",

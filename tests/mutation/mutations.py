@@ -4,7 +4,7 @@
 MUTATIONS = [
     # the turning functions and the helix: signs, a factor, a derivative
     ("core/trigonometry.hpp", "(Scalar(1.0) - cosine) / safe", "(Scalar(1.0) + cosine) / safe"),
-    ("core/trigonometry.hpp", "select(small, Scalar(t * d_s1_over_t), Scalar((cosine - s1) / safe))", "select(small, Scalar(t * d_s1_over_t), Scalar((cosine + s1) / safe))"),
+    ("core/trigonometry.hpp", "select(small, d_s1_series, Scalar((cosine - s1) / safe))", "select(small, d_s1_series, Scalar((cosine + s1) / safe))"),
     ("core/trigonometry.hpp", "series(0.5, -1.0 / 24, 1.0 / 720", "series(0.5, -1.0 / 26, 1.0 / 720"),
     ("core/chi_squared.hpp", "term *= x / (a + 1.0);", "term *= x / (a + 2.0);"),
     ("core/philox.hpp", "0xCD9E8D57u", "0xCD9E8D59u"),
@@ -22,14 +22,14 @@ MUTATIONS = [
     ("track_model/material_noise.hpp", "Scalar(step.dz * step.dz / 3.0)", "Scalar(step.dz * step.dz / 2.0)"),
     ("track_model/material_noise.hpp", "const kick<Scalar> c = scatter(start, crossing, step.start);", "const kick<Scalar> c = scatter(start, crossing, step.finish);"),
     ("material/kinematics.hpp", "const double ratio = constants::electron_mass / hypothesis.mass;", "const double ratio = 0.0;"),
-    ("material/kinematics.hpp", "const Scalar beta_squared = u2 / gamma2;", "const Scalar beta_squared = u2 / gamma;"),
+    ("material/kinematics.hpp", "u2 * per_gamma2, largest_transfer", "u2 * per_gamma2 * per_gamma2, largest_transfer"),
     ("material/bethe.hpp", "* Scalar(0.5) - k.beta_squared;", "* Scalar(0.5) + k.beta_squared;"),
     ("material/bethe.hpp", "medium.z_over_a * medium.density", "medium.z_over_a"),
     ("material/highland.hpp", "inline constexpr double log_coefficient = 0.038;", "inline constexpr double log_coefficient = 0.088;"),
     ("material/highland.hpp", "Scalar(1.0) + Scalar(hypothesis.mass * hypothesis.mass) / p2", "Scalar(1.0) + Scalar(hypothesis.mass) / p2"),
     ("material/landau.hpp", "inline constexpr double median = 1.35578042099;", "inline constexpr double median = 1.25578042099;"),
     ("material/landau.hpp", "(Scalar(1.0) - k.beta_squared * Scalar(0.5))", "(Scalar(1.0) + k.beta_squared * Scalar(0.5))"),
-    ("material/density_effect.hpp", "const Scalar slope_curved = Scalar(2.0 * ln10) - power * Scalar(s.m);", "const Scalar slope_curved = Scalar(2.0 * ln10) - power;"),
+    ("material/density_effect.hpp", "const Scalar slope_curved = Scalar(2.0) - power * Scalar(s.m / ln10);", "const Scalar slope_curved = Scalar(2.0) - power;"),
     # the filter: a transpose, a noise left out, a sign
     ("kalman/gain.hpp", "out.residual_covariance += seen.covariance;", "out.residual_covariance -= seen.covariance;"),
     ("kalman/joseph.hpp", "times<Scalar, N, M, M>(k.weight, seen.covariance) - detail", "times<Scalar, N, M, M>(k.weight, seen.covariance) + detail"),
@@ -37,6 +37,15 @@ MUTATIONS = [
     ("kalman/smoother.hpp", "after.smoothed.mean - after.predicted.mean", "after.smoothed.mean - after.filtered.mean"),
     ("kalman/gate.hpp", "chi2 <= Scalar(max_chi2_per_dimension", "chi2 >= Scalar(max_chi2_per_dimension"),
     ("kalman/measurement.hpp", "else return value - expected;", "else return expected - value;"),
+    ("kalman/bryson_frazier.hpp", "known.mean - times_vector", "known.mean + times_vector"),
+    ("kalman/ldl.hpp", "sum -= scaled(i, k) * lower_(j, k);", "sum -= lower_(i, k) * lower_(j, k);"),
+    # fields: a weight of a stage, a component of the force, a derivative
+    ("track_model/nystrom_step.hpp", "Scalar(h * h / 6.0) * (k_[0] + k_[1] + k_[2])", "Scalar(h * h / 6.0) * (k_[0] + k_[1] + k_[3])"),
+    ("track_model/nystrom_step.hpp", "- mixed * b.y() - u.x * b.z())", "- mixed * b.y() + u.x * b.z())"),
+    ("track_model/nystrom_step.hpp", "Scalar(-u.y * b.y() - b.z())", "Scalar(-u.y * b.y() + b.z())"),
+    # packs
+    ("core/pack_math.hpp", ".sine_after(1);", ".sine_after(0);"),
+    ("core/gamma_probability.hpp", "x + 1.0 - shape", "x + 2.0 - shape"),
     # frames and geometry: an angle, an offset, an order
     ("geometry/placement.hpp", "turn(point - origin, angle)", "turn(point + origin, angle)"),
     ("geometry/placement.hpp", "-s * v.x() + c * v.y()", "s * v.x() + c * v.y()"),
@@ -48,13 +57,15 @@ MUTATIONS = [
     ("track_model/conversions.hpp", "c.jacobian(out::pz, in::q_over_pz) = -pz / k;", "c.jacobian(out::pz, in::q_over_pz) = pz / k;"),
     ("track_model/conversions.hpp", "q * inverse_pz;", "inverse_pz;"),
     # from light to tracks
+    ("candidate_to_track/fit_probability.hpp", "f.chi2 - f.closure)", "f.chi2)"),
+    ("candidate_to_track/robust_refit.hpp", "0.5 * (n.chi2 + std::log(n.residual_covariance(0, 0)))", "0.5 * n.chi2"),
     ("digit_to_cluster/cluster_finder.hpp", "if (digits[i].npe < min_npe) {", "if (digits[i].npe > min_npe) {"),
     ("digit_to_cluster/cluster_finder.hpp", "digits[end].npe >= min_npe && next_to", "next_to"),
     ("cluster_to_space_point/crossing.hpp", "out.chi2 = squares - in_station.dot(sum);", "out.chi2 = squares;"),
     ("cluster_to_space_point/crossing.hpp", "to_tracker << c, -s, s, c;", "to_tracker << c, s, s, c;"),
     ("hit_to_digit/light_yield.hpp", "(1.0 + mirror)", "(1.0 - mirror)"),
     ("hit_to_digit/noise.hpp", "channel += 1.0 + std::floor", "channel += std::floor"),
-    ("hit_to_digit/adc.hpp", "(counts - calibration.pedestal) / calibration.gain", "counts / calibration.gain"),
+    ("event/adc_line.hpp", "return (counts - pedestal) / gain;", "return counts / gain;"),
     ("hit_to_digit/adc.hpp", "static_cast<double>(largest_count));", "1.0e9);"),
     ("particle_to_hit/fibre_crossing.hpp", "return fibre / doublet.fibres_per_channel;", "return fibre / doublet.fibres_per_channel + 1;"),
 ]

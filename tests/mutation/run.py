@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: MPL-2.0
 """Breaks the library in small ways, one at a time, and shows that its unit tests notice each.
 
-Usage: tests/mutation/run.py [--compiler g++] [--eigen /usr/include/eigen3] [--jobs 2] [--only TEXT] [--write docs/testing.md]
+Usage: tests/mutation/run.py --check        # what is to be broken stands where the list says
+       tests/mutation/run.py [--compiler g++] [--eigen /usr/include/eigen3] [--jobs 2] [--only TEXT] [--write docs/testing.md]
 
 A mutation is judged by the unit test of its header and, where that does not notice, by those of its folder. It counts as noticed when a test does not
 compile or fails. Exit status 0: the tests pass as they are and notice every mutation.
@@ -50,11 +51,10 @@ def judge(options, mutation):
         scratch = pathlib.Path(folder)
         include = scratch / "include"
         shutil.copytree(ROOT / "include", include)
+        if standing(header, before) != 1:
+            return mutation, None, f"stands there {standing(header, before)} times, not once"
         broken = include / "scifi" / header
-        text = broken.read_text(encoding="utf-8")
-        if text.count(before) != 1:
-            return mutation, None, f"stands there {text.count(before)} times, not once"
-        broken.write_text(text.replace(before, after), encoding="utf-8")
+        broken.write_text(broken.read_text(encoding="utf-8").replace(before, after), encoding="utf-8")
         for source in tests_of(header):
             if fails(options, include, source, scratch):
                 # A test that fails without the mutation too notices nothing.
@@ -62,6 +62,17 @@ def judge(options, mutation):
                     return mutation, None, f"{source.name} fails as it is"
                 return mutation, True, source.name
     return mutation, False, "not noticed"
+
+
+def standing(header, before):
+    return (ROOT / "include/scifi" / header).read_text(encoding="utf-8").count(before)
+
+
+def check():
+    wrong = [f"{header}: {before}: stands there {standing(header, before)} times, not once" for header, before, _ in MUTATIONS if standing(header, before) != 1]
+    print("\n".join(wrong))
+    print(f"{len(MUTATIONS)} mutations, {len(wrong)} cannot be made")
+    return 1 if wrong else 0
 
 
 def write_table(page, results):
@@ -81,7 +92,10 @@ def main():
     parser.add_argument("--jobs", type=int, default=2)
     parser.add_argument("--only", default="", help="mutations of headers that contain this")
     parser.add_argument("--write", type=pathlib.Path, help="page whose table of mutations is replaced")
+    parser.add_argument("--check", action="store_true", help="only look whether each mutation can be made")
     options = parser.parse_args()
+    if options.check:
+        return check()
     chosen = [m for m in MUTATIONS if options.only in m[0]]
 
     with tempfile.TemporaryDirectory() as folder:

@@ -23,7 +23,10 @@
 namespace scifi {
 
 /// The plain fit is the last word.
-struct no_refit {};
+struct no_refit {
+  template <class StateSpace>
+  struct buffers {};
+};
 
 /// Fits a track that fits badly again under every simple reason for that, and takes the mean of all, each with its probability given the data.
 ///
@@ -155,10 +158,11 @@ struct robust_refit {
 
 /// Has the second look that a policy wants at a track that was fitted plainly from `start`: replaces its states and the charge, or leaves it as it is.
 ///
+/// A policy has `p_below`, `buffers<StateSpace>` with the `plain` memory and the `mean` it leaves, and the call of robust_refit.
 /// `from_slopes` and `to_slopes` convert between slope_state and the state of the fit: a vector, and an estimate.
 template <class StateSpace, class Refit, class Filter, class FromSlopes, class ToSlopes>
 void look_again(const Refit& refit, const Filter& filter, const fit_path& path, int travel, const kalman::estimate<double, StateSpace::dimension>& start, const fit_job& job,
-                const FromSlopes& from_slopes, const ToSlopes& to_slopes, robust_refit::buffers<StateSpace>& work, fitted_track& out) {
+                const FromSlopes& from_slopes, const ToSlopes& to_slopes, typename Refit::template buffers<StateSpace>& work, fitted_track& out) {
   if (!out.summary.status.ok() || !(out.summary.p_value < refit.p_below)) return;
   const std::size_t surfaces = path.surfaces.size();
   set_stops(path, path.legs, std::array{job}, work.plain);

@@ -87,8 +87,8 @@ class track_fitter {
     fit_memory<line_state, double, leg> line;
     fitted_track one;
     std::vector<std::size_t> in_lanes;
-    robust_refit::buffers<slope_state> helix_again;
-    robust_refit::buffers<line_state> line_again;
+    typename Refit::template buffers<slope_state> helix_again;
+    typename Refit::template buffers<line_state> line_again;
   };
 
   /// Fits one candidate; appends its track and its track points. A failed fit is appended too, with its status and no points.

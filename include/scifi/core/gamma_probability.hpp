@@ -7,15 +7,16 @@
 namespace scifi {
 
 /// Q(shape, x), the probability that a gamma variate of this shape and unit scale exceeds x (DLMF 8.2.4); Q(ndf/2, chi2/2) is that of chi-squared with a number
-/// of degrees of freedom that need not be whole. Series (DLMF 8.7.1) below x = shape + 1, continued fraction (DLMF 8.9.2) above; relative error below 1e-9
-/// for 0.05 <= shape <= 200. Needs shape > 0 and x >= 0, else NaN.
+/// of degrees of freedom that need not be whole; `chi_squared_probability` is the finite sum for those that are. Series (DLMF 8.7.1) below x = shape + 1,
+/// continued fraction (DLMF 8.9.2) above; relative error below 1e-9 for 0.05 <= shape <= 150. Needs 0 < shape <= 150 and x >= 0, else NaN.
 [[nodiscard]] inline double gamma_probability(double shape, double x) {
-  if (!(shape > 0.0) || !(x >= 0.0)) return std::numeric_limits<double>::quiet_NaN();
+  constexpr double largest_shape = 150.0;  // beyond, the gamma function comes near the largest number
+  if (!(shape > 0.0) || !(shape <= largest_shape) || !(x >= 0.0)) return std::numeric_limits<double>::quiet_NaN();
   if (x == 0.0) return 1.0;
   if (std::isinf(x)) return 0.0;
   constexpr double enough = 1e-13;
   constexpr int most = 1000;
-  const double front = std::exp(-x + shape * std::log(x) - std::lgamma(shape));
+  const double front = std::exp(-x + shape * std::log(x)) / std::tgamma(shape);  // lgamma would write a global sign
   if (x < shape + 1.0) {
     double term = 1.0 / shape;
     double sum = term;

@@ -8,6 +8,7 @@
 
 #include <scifi/geometry/tracker.hpp>
 #include <scifi/io/csv.hpp>
+#include <scifi/io/event_rows.hpp>
 #include <scifi/particle_to_hit/moving_particle.hpp>
 
 namespace scifi {
@@ -28,28 +29,25 @@ struct beam_event {
 /// t_ns, px_MeV, py_MeV, pz_MeV, found by name; others are ignored. The frame is the tracker's. Particles of an event stand together and event numbers grow.
 /// Throws input_error, with file, line and column, for whatever does not fit, an unknown tracker or pdg and pz = 0 among it.
 [[nodiscard]] inline std::vector<beam_event> read_particles(const std::filesystem::path& path, const detector& d) {
-  enum columns : std::size_t { event_column, tracker_column, pdg_column, x, y, z, t, px, py, pz };
-  csv_reader rows(path, {"event", "tracker", "pdg", "x_mm", "y_mm", "z_mm", "t_ns", "px_MeV", "py_MeV", "pz_MeV"});
+  enum columns : std::size_t { event_column, tracker, pdg, x, y, z, t, px, py, pz };
+  event_rows rows(path, {"tracker", "pdg", "x_mm", "y_mm", "z_mm", "t_ns", "px_MeV", "py_MeV", "pz_MeV"});
   std::vector<beam_event> out;
-  while (rows.next_row()) {
-    const long number = rows.whole_number<long>(event_column);
-    if (number < 0) rows.fail("event", "event numbers must not be negative");
-    if (!out.empty() && number < out.back().number)
-      rows.fail("event", std::to_string(number) + " comes after " + std::to_string(out.back().number) +
-                             ": the rows of an event must stand together and event numbers must grow");
-    const int pdg = rows.whole_number<int>(pdg_column);
-    const auto hypothesis = particle_from_pdg(pdg);
-    if (!hypothesis) rows.fail("pdg", std::to_string(pdg) + " is not known; try 13, -13, 211, -211, 11, -11 or 2212");
-    beam_particle p;
-    p.tracker = rows.whole_number<int>(tracker_column);
-    if (d.find(p.tracker) == nullptr) rows.fail("tracker", "there is no tracker " + std::to_string(p.tracker));
-    p.start.hypothesis = *hypothesis;
-    p.start.position = {rows.number(x), rows.number(y), rows.number(z)};
-    p.start.momentum = {rows.number(px), rows.number(py), rows.number(pz)};
-    p.start.t = rows.number(t);
-    if (p.start.momentum.z() == 0.0) rows.fail("pz_MeV", "a particle needs a momentum along z");
-    if (out.empty() || number != out.back().number) out.push_back({number, {}});
-    out.back().particles.push_back(p);
+  while (rows.next_event() != event_rows::no_more) {
+    out.push_back({rows.next_event(), {}});
+    rows.read(out.back().number, [&](const csv_reader& row) {
+      const int code = row.whole_number<int>(pdg);
+      const auto hypothesis = particle_from_pdg(code);
+      if (!hypothesis) row.fail("pdg", std::to_string(code) + " is not known; try 13, -13, 211, -211, 11, -11 or 2212");
+      beam_particle p;
+      p.tracker = row.whole_number<int>(tracker);
+      if (d.find(p.tracker) == nullptr) row.fail("tracker", "there is no tracker " + std::to_string(p.tracker));
+      p.start.hypothesis = *hypothesis;
+      p.start.position = {row.number(x), row.number(y), row.number(z)};
+      p.start.momentum = {row.number(px), row.number(py), row.number(pz)};
+      p.start.t = row.number(t);
+      if (p.start.momentum.z() == 0.0) row.fail("pz_MeV", "a particle needs a momentum along z");
+      out.back().particles.push_back(p);
+    });
   }
   return out;
 }

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: MPL-2.0
 """Two translation units of one program, compiled with different vector flags: linked where they agree on Eigen's alignment, refused where not.
 
-Usage: check_alignment.py SCRATCH COMPILER FLAGS...
+Usage: check_eigen_alignment.py SCRATCH COMPILER FLAGS...
 """
 
 import pathlib
@@ -11,7 +11,7 @@ import subprocess
 import sys
 
 SYMBOL = "scifi_error_define_EIGEN_MAX_STATIC_ALIGN_BYTES_alike_in_all_translation_units"
-SOURCES = pathlib.Path(__file__).parent / "alignment"
+SOURCES = pathlib.Path(__file__).parent / "eigen_alignment"
 
 
 def program(scratch, compiler, library_flags, program_flags, link_flags=()):
