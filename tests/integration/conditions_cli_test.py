@@ -12,11 +12,10 @@ import os
 import pathlib
 import sqlite3
 import subprocess
-import sys
-import tempfile
 import unittest
 
-BIN = None
+import programs
+
 HEADER = "event,tracker,station,plane,channel,adc,npe\n"
 
 
@@ -29,23 +28,9 @@ def geometry(last_station_z=1000.0):
                        "trackers": [{"tracker": 1, "beam_direction": 1, "stations": stations}]})
 
 
-class Conditions(unittest.TestCase):
-    def setUp(self):
-        self.scratch = tempfile.TemporaryDirectory(prefix="scifi_cli_")
-        self.folder = pathlib.Path(self.scratch.name)
-
-    def tearDown(self):
-        self.scratch.cleanup()
-
-    def write(self, name, content):
-        (self.folder / name).write_bytes(content if isinstance(content, bytes) else content.encode())
-        return name
-
-    def program(self, name, *arguments):
-        return subprocess.run([BIN / name, *map(str, arguments)], cwd=self.folder, capture_output=True, text=True, timeout=120, check=False)
-
+class Conditions(programs.InAFolder):
     def on_store(self, *arguments, status=0, store="store.db"):
-        done = self.program("scifi-conditions", store, *arguments)
+        done = self.run_program("scifi-conditions", store, *arguments)
         self.assertEqual(done.returncode, status, (arguments, done.stdout, done.stderr))
         return done
 
@@ -53,9 +38,6 @@ class Conditions(unittest.TestCase):
         done = self.on_store(*arguments, status=status, store=store)
         self.assertIn(words, done.stderr)
         self.assertEqual(done.stdout, "")
-
-    def files(self):
-        return sorted(p.name for p in self.folder.iterdir())
 
     def add_alignments(self):
         """Two surveys: the second, recorded later, for some of the runs of the first."""
@@ -92,7 +74,7 @@ class Conditions(unittest.TestCase):
             self.on_store("add", "--kind", "alignment", "--runs", "1:", name)
             self.on_store("get", "--kind", "alignment", "--run", 5, "-o", "out.bin")
             self.assertEqual((self.folder / "out.bin").read_bytes(), content)
-            done = subprocess.run([BIN / "scifi-conditions", "store.db", "get", "--kind", "alignment", "--run", "5"], cwd=self.folder, capture_output=True,
+            done = subprocess.run([programs.BIN / "scifi-conditions", "store.db", "get", "--kind", "alignment", "--run", "5"], cwd=self.folder, capture_output=True,
                                   timeout=60, check=True)
             self.assertEqual(done.stdout, content)
 
@@ -139,7 +121,7 @@ class Conditions(unittest.TestCase):
 
     def test_several_add_at_once_and_none_is_lost(self):
         self.write("a.txt", "a")
-        command = [BIN / "scifi-conditions", "store.db", "add", "--kind", "alignment", "--runs", "1:", "a.txt"]
+        command = [programs.BIN / "scifi-conditions", "store.db", "add", "--kind", "alignment", "--runs", "1:", "a.txt"]
         writers = [subprocess.Popen(command, cwd=self.folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE) for _ in range(8)]
         for w in writers:
             _, errors = w.communicate(timeout=120)
@@ -181,7 +163,7 @@ class Conditions(unittest.TestCase):
         self.refused("get", "--kind", "alignment", "--run", "7500", "-o", "store.db", words="would overwrite the store")
         self.refused("get", "--kind", "alignment", "--run", "7500", "-o", "none/x", words="none/x: cannot be written")
         self.refused(words="A subcommand is required")
-        self.assertEqual(self.program("scifi-conditions", "--help").returncode, 0)
+        self.assertEqual(self.run_program("scifi-conditions", "--help").returncode, 0)
 
     def test_a_wrong_store_is_refused_and_left_as_it_is(self):
         self.write("a.txt", "a")
@@ -241,7 +223,7 @@ class Conditions(unittest.TestCase):
         for z, when in ((1000.0, "2015-12-24"), (1100.0, "2016-12-24")):
             made = []
             for source in (["--geometry", f"g{z:.0f}.json"], ["--conditions", "store.db", "--run", "7500", "--as-of", when]):
-                done = self.program(program, *source, *arguments)
+                done = self.run_program(program, *source, *arguments)
                 self.assertEqual(done.returncode, 0, done.stderr)
                 made.append([(self.folder / name).read_bytes() for name in outputs])
             self.assertEqual(made[0], made[1])
@@ -263,7 +245,7 @@ class Conditions(unittest.TestCase):
         self.assertEqual(len(json.loads((self.folder / "g.json").read_text(encoding="utf-8"))["trackers"]), 2)
         made = []
         for source in (["--geometry", modules], ["--conditions", "store.db", "--run", "7500"]):
-            done = self.program("scifi-simulate", *source, "--events", 20, "--field", 3, "--output", "s")
+            done = self.run_program("scifi-simulate", *source, "--events", 20, "--field", 3, "--output", "s")
             self.assertEqual(done.returncode, 0, done.stderr)
             made.append((self.folder / "s_digits.csv").read_bytes())
         self.assertEqual(made[0], made[1])
@@ -279,11 +261,11 @@ class Conditions(unittest.TestCase):
                                   (["--conditions", "none.db", "--run", "7500"], "none.db: cannot be opened"),
                                   (["--conditions", "store.db"], "--run"), (["--run", "7500"], "--conditions"), (["--as-of", "2015-01-01"], "--conditions")):
                 with self.subTest(program=program, source=source):
-                    done = self.program(program, *source, *arguments)
+                    done = self.run_program(program, *source, *arguments)
                     self.assertEqual(done.returncode, 2, done.stderr)
                     self.assertIn(words, done.stderr)
         self.on_store("add", "--kind", "geometry", "--runs", "7500", "--tracker", 1, "g1000.json")
-        done = self.program("scifi-reconstruct", "--conditions", "store.db", "--run", "7500", "d.csv")
+        done = self.run_program("scifi-reconstruct", "--conditions", "store.db", "--run", "7500", "d.csv")
         self.assertEqual(done.returncode, 2)
         self.assertIn("store.db: record 3: is in force for tracker 1 alone, where one geometry for all trackers is needed", done.stderr)
         self.assertNotIn("tracks.csv", self.files())
@@ -299,12 +281,12 @@ class Conditions(unittest.TestCase):
             for kind, name in (("cabling", "cabling.txt"), ("calibration", "c.json"), ("bad_channels", "bad.txt")):
                 self.on_store("add", "--kind", kind, "--runs", "7000:", "--recorded", when, name)
         for when, expected in (("2015-12-24", [("50", 16.0), ("213", 16.0)]), ("2016-12-24", [("50", 8.0)])):
-            done = self.program("scifi-digitise", "--conditions", "store.db", "--run", 7500, "--as-of", when, "raw.csv")
+            done = self.run_program("scifi-digitise", "--conditions", "store.db", "--run", 7500, "--as-of", when, "raw.csv")
             self.assertEqual(done.returncode, 0, done.stderr)
             rows = [line.split(",") for line in (self.folder / "digits.csv").read_text(encoding="ascii").splitlines()[1:]]
             self.assertEqual([(r[4], float(r[6])) for r in rows], expected)
             self.assertIn("record ", done.stdout)
-        done = self.program("scifi-digitise", "--cabling", "cabling.txt", "raw.csv")
+        done = self.run_program("scifi-digitise", "--cabling", "cabling.txt", "raw.csv")
         self.assertEqual(done.returncode, 2)
         self.assertIn("--calibration is required", done.stderr)
 
@@ -313,15 +295,12 @@ class Conditions(unittest.TestCase):
         self.write("d.csv", HEADER)
         (self.folder / "tmp").mkdir()
         environment = dict(os.environ, TMPDIR=str(self.folder / "tmp"))
-        done = subprocess.run([BIN / "scifi-reconstruct", "--conditions", "store.db", "--run", "7500", "d.csv"], cwd=self.folder, env=environment,
+        done = subprocess.run([programs.BIN / "scifi-reconstruct", "--conditions", "store.db", "--run", "7500", "d.csv"], cwd=self.folder, env=environment,
                               capture_output=True, text=True, timeout=60, check=False)
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertEqual(list((self.folder / "tmp").iterdir()), [])
 
 
 if __name__ == "__main__":
-    BIN = pathlib.Path(sys.argv[1]).resolve()
-    if not os.access(BIN / "scifi-conditions", os.X_OK):
-        print("skipped: scifi-conditions was not built")
-        sys.exit(77)
-    unittest.main(argv=[sys.argv[0]] + sys.argv[2:])
+    programs.find("scifi-conditions")
+    unittest.main()

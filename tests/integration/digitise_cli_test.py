@@ -12,12 +12,10 @@ import gzip
 import json
 import os
 import pathlib
-import subprocess
-import sys
-import tempfile
 import unittest
 
-BIN = None
+import programs
+
 RAW_HEADER = "event,board,bank,channel,adc\n"
 DIGIT_HEADER = "event,tracker,station,plane,channel,adc,npe"
 CHANNELS = (214, 214, 212)  # of the planes of a MICE station
@@ -52,22 +50,12 @@ def calibration(lines):
 CALIBRATION = calibration({CABLE[c]: LINE[c] for c in all_channels()})
 
 
-class Digitise(unittest.TestCase):
+class Digitise(programs.InAFolder):
     def setUp(self):
-        self.scratch = tempfile.TemporaryDirectory(prefix="scifi_cli_")
-        self.folder = pathlib.Path(self.scratch.name)
+        super().setUp()
         self.write("cabling.txt", CABLING)
         self.write("calibration.txt", CALIBRATION)
         self.write("bad.txt", "")
-
-    def tearDown(self):
-        self.scratch.cleanup()
-
-    def write(self, name, content):
-        (self.folder / name).write_bytes(content if isinstance(content, bytes) else content.encode())
-
-    def run_program(self, program, *arguments):
-        return subprocess.run([BIN / program, *map(str, arguments)], cwd=self.folder, capture_output=True, text=True, errors="replace", timeout=120, check=False)
 
     def digitise(self, raw, *arguments, **files):
         if raw is not None:
@@ -77,8 +65,7 @@ class Digitise(unittest.TestCase):
         return self.run_program("scifi-digitise", *inputs, *arguments, "raw.csv")
 
     def rows(self, name="digits.csv"):
-        with open(self.folder / name, newline="", encoding="ascii") as f:
-            return list(csv.DictReader(f))
+        return super().rows(name)
 
     def expect_refused(self, result, *sentences, status=2):
         self.assertEqual(result.returncode, status, result.stderr)
@@ -295,8 +282,5 @@ class Digitise(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    BIN = pathlib.Path(sys.argv.pop(1)).resolve()
-    if not (BIN / "scifi-digitise").exists():
-        print(f"skipped: no {BIN / 'scifi-digitise'}")
-        sys.exit(77)
-    unittest.main(verbosity=1)
+    programs.find("scifi-digitise")
+    unittest.main()

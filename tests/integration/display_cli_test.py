@@ -8,64 +8,37 @@ Exit status 77: a program was not built.
 """
 
 import collections
-import csv
 import json
 import math
 import os
-import pathlib
 import shutil
 import subprocess
-import sys
-import tempfile
 import unittest
 
-BIN = None
-SKIPPED = 77
-PAGE = "<html><script>@SCIFI_DATA@</script></html>"
+import programs
 
 
-def rows(path):
-    with open(path, newline="", encoding="utf-8") as stream:
-        return list(csv.DictReader(stream))
 
-
-class Display(unittest.TestCase):
+class Display(programs.BesideItsPage):
     @classmethod
     def setUpClass(cls):
-        cls.holder = tempfile.TemporaryDirectory()
-        cls.folder = pathlib.Path(cls.holder.name)
-        # The program looks for its page beside itself.
-        (cls.folder / "bin").mkdir()
-        cls.program = cls.folder / "bin" / "scifi-display"
-        shutil.copy(BIN / "scifi-display", cls.program)
-        (cls.folder / "share/scifi").mkdir(parents=True)
-        (cls.folder / "share/scifi/display.html").write_text(PAGE, encoding="utf-8")
-        subprocess.run([BIN / "scifi-simulate", "--events", "12", "--tracks-per-event", "2", "--seed", "4", "--output", "m"], cwd=cls.folder, check=True,
-                       capture_output=True)
-        subprocess.run([BIN / "scifi-reconstruct", "m_digits.csv", "--track-points", "points.csv"], cwd=cls.folder, check=True, capture_output=True)
+        super().setUpClass()
+        cls.install("scifi-display", "display.html")
+        cls.make("scifi-simulate", "--events", 12, "--tracks-per-event", 2, "--seed", 4, "--output", "m")
+        cls.make("scifi-reconstruct", "m_digits.csv", "--track-points", "points.csv")
         cls.given = ["m_digits.csv", "--tracks", "tracks.csv", "--track-points", "points.csv", "--truth", "m_truth.csv"]
 
-    @classmethod
-    def tearDownClass(cls):
-        cls.holder.cleanup()
-
-    def run_display(self, *arguments):
-        return subprocess.run([self.program, *map(str, arguments)], cwd=self.folder, capture_output=True, text=True, timeout=120)
-
     def view(self, *arguments):
-        result = self.run_display(*arguments, "--output", "out.html")
+        result = self.run_program(*arguments, "--output", "out.html")
         self.assertEqual(result.returncode, 0, result.stderr)
-        text = (self.folder / "out.html").read_text(encoding="utf-8")
-        before, after = PAGE.split("@SCIFI_DATA@")
-        self.assertTrue(text.startswith(before) and text.endswith(after))
-        data = text[len(before):len(text) - len(after)]
+        data = self.data_of("out.html")
         self.assertNotIn("<", data)
         return json.loads(data)
 
     def test_every_digit_and_every_track_of_the_files_is_there(self):
         view = self.view(*self.given)
-        digits, tracks = collections.Counter(r["event"] for r in rows(self.folder / "m_digits.csv")), collections.Counter()
-        for row in rows(self.folder / "tracks.csv"):
+        digits, tracks = collections.Counter(r["event"] for r in programs.rows(self.folder / "m_digits.csv")), collections.Counter()
+        for row in programs.rows(self.folder / "tracks.csv"):
             tracks[row["event"]] += 1
         self.assertEqual(len(view["events"]), 12)
         for event in view["events"]:
@@ -76,7 +49,7 @@ class Display(unittest.TestCase):
     def test_tracks_are_drawn_through_their_points_and_near_the_true_particles(self):
         view = self.view(*self.given)
         points = collections.defaultdict(list)
-        for row in rows(self.folder / "points.csv"):
+        for row in programs.rows(self.folder / "points.csv"):
             points[int(row["event"]), int(row["track"])].append([float(row[name]) for name in ("x_mm", "y_mm", "z_mm")])
         near = 0
         for event in view["events"]:
@@ -96,7 +69,7 @@ class Display(unittest.TestCase):
     def test_digits_alone_are_reconstructed_here_with_the_same_tracks(self):
         view = self.view("m_digits.csv")
         ours = [(e["event"], t["track"], t["pz"][0]) for e in view["events"] for t in e["tracks"]]
-        theirs = [(int(r["event"]), int(r["track"]), float(r["pz_MeV"])) for r in rows(self.folder / "tracks.csv")]
+        theirs = [(int(r["event"]), int(r["track"]), float(r["pz_MeV"])) for r in programs.rows(self.folder / "tracks.csv")]
         self.assertEqual([o[:2] for o in ours], [t[:2] for t in theirs])
         for o, t in zip(ours, theirs):
             self.assertAlmostEqual(o[2], t[2], delta=1e-3)
@@ -104,7 +77,7 @@ class Display(unittest.TestCase):
 
     def test_tracks_can_be_shown_without_digits(self):
         view = self.view("--tracks", "tracks.csv")
-        self.assertEqual(sum(len(e["tracks"]) for e in view["events"]), len(rows(self.folder / "tracks.csv")))
+        self.assertEqual(sum(len(e["tracks"]) for e in view["events"]), len(programs.rows(self.folder / "tracks.csv")))
         self.assertEqual(view["events"][0]["digits"], [])
 
     def test_channels_lie_in_the_planes_where_the_space_points_are(self):
@@ -120,7 +93,7 @@ class Display(unittest.TestCase):
 
     def test_some_of_the_events(self):
         self.assertEqual([e["event"] for e in self.view(*self.given, "--first", "3", "--events", "4")["events"]], [3, 4, 5, 6])
-        result = self.run_display(*self.given, "--events", "2", "--output", "two.html")
+        result = self.run_program(*self.given, "--events", "2", "--output", "two.html")
         self.assertIn("there are more", result.stdout)
 
     def test_a_title_cannot_break_out_of_its_place(self):
@@ -128,7 +101,7 @@ class Display(unittest.TestCase):
         self.assertEqual(self.view("m_digits.csv", "--title", title)["title"], title)
 
     def test_events_for_phoenix(self):
-        result = self.run_display(*self.given, "--output", "p.html", "--phoenix", "p.json")
+        result = self.run_program(*self.given, "--output", "p.html", "--phoenix", "p.json")
         self.assertEqual(result.returncode, 0, result.stderr)
         phoenix = json.loads((self.folder / "p.json").read_text(encoding="utf-8"))
         view = self.view(*self.given)
@@ -145,11 +118,11 @@ class Display(unittest.TestCase):
             self.assertEqual(len(hits["Space points"]), len(event["space_points"]))
 
     def test_the_data_of_the_page_alone(self):
-        self.run_display(*self.given, "--output", "j.html", "--json", "j.json")
+        self.run_program(*self.given, "--output", "j.html", "--json", "j.json")
         self.assertEqual(json.loads((self.folder / "j.json").read_text(encoding="utf-8")), self.view(*self.given))
 
     def refused(self, status, words, *arguments):
-        result = self.run_display(*arguments)
+        result = self.run_program(*arguments)
         self.assertEqual(result.returncode, status, result.stderr)
         for word in words:
             self.assertIn(word, result.stderr)
@@ -176,16 +149,13 @@ class Display(unittest.TestCase):
     def test_without_the_page_it_says_how_to_make_it(self):
         elsewhere = self.folder / "elsewhere" / "bin"
         elsewhere.mkdir(parents=True, exist_ok=True)
-        shutil.copy(BIN / "scifi-display", elsewhere)
+        shutil.copy(programs.BIN / "scifi-display", elsewhere)
         result = subprocess.run([elsewhere / "scifi-display", "m_digits.csv"], cwd=self.folder, capture_output=True, text=True, timeout=60)
         self.assertEqual(result.returncode, 3)
         self.assertIn(f"scripts/web_assets {elsewhere.parent / 'share/scifi'}", result.stderr)
 
 
 if __name__ == "__main__":
-    BIN = pathlib.Path(sys.argv.pop(1)).resolve()
-    if not all((BIN / name).exists() for name in ("scifi-display", "scifi-simulate", "scifi-reconstruct")):
-        print("skipped: the programs are not built")
-        sys.exit(SKIPPED)
+    programs.find("scifi-display", "scifi-simulate", "scifi-reconstruct")
     os.environ.pop("SCIFI_SHARED_DATA", None)
     unittest.main(verbosity=2)

@@ -7,18 +7,15 @@ BIN is the folder of the programs. Needs the standard library alone. Exit status
 SCIFI_SHARED_DATA in the environment names the folder of external data; tests that need it are skipped without.
 """
 
-import csv
 import gzip
 import math
 import os
 import pathlib
 import statistics
-import subprocess
-import sys
-import tempfile
 import unittest
 
-BIN = None
+import programs
+
 SHARED = os.environ.get("SCIFI_SHARED_DATA")
 HEAD = "scifi field map\ngrid cylindrical\nlength mm\nfield T\ncolumns r z br bz\n"
 
@@ -41,25 +38,7 @@ def wavy(r, z):
     return 3 * a * i1 * math.sin(k * z), 3 * (1 + a * i0 * math.cos(k * z))
 
 
-def rows_of(path):
-    with open(path, encoding="ascii", newline="") as source:
-        return list(csv.DictReader(source))
-
-
-class Fields(unittest.TestCase):
-    def setUp(self):
-        holder = tempfile.TemporaryDirectory()
-        self.addCleanup(holder.cleanup)
-        self.folder = pathlib.Path(holder.name)
-
-    def file(self, name, content):
-        path = self.folder / name
-        path.write_bytes(content if isinstance(content, bytes) else content.encode())
-        return name
-
-    def run_program(self, program, *options):
-        return subprocess.run([BIN / program, *map(str, options)], capture_output=True, text=True, timeout=300, check=False, cwd=self.folder)
-
+class Fields(programs.InAFolder):
     def simulate(self, field, events, *options):
         done = self.run_program("scifi-simulate", "--field", field, "--events", events, "--tracker", 1, "--radius", 60, "--pt", 10, 60, "--output", "s", *options)
         self.assertEqual(done.returncode, 0, done.stderr)
@@ -68,15 +47,15 @@ class Fields(unittest.TestCase):
     def reconstruct(self, field, *options):
         done = self.run_program("scifi-reconstruct", "s_digits.csv", "--field", field, *options)
         self.assertEqual(done.returncode, 0, done.stderr)
-        return rows_of(self.folder / "tracks.csv")
+        return self.rows("tracks.csv")
 
     def pulls_of_pz(self, tracks):
         """(pz of the track - true pz) / its error, for events with one track; the truth is where the particle crossed plane 0 of station 1."""
-        truth = {row["event"]: float(row["pz_MeV"]) for row in rows_of(self.folder / "s_truth.csv") if row["station"] == "1" and row["plane"] == "0"}
+        truth = {row["event"]: float(row["pz_MeV"]) for row in self.rows("s_truth.csv") if row["station"] == "1" and row["plane"] == "0"}
         return [(float(t["pz_MeV"]) - truth[t["event"]]) / float(t["sigma_pz_MeV"]) for t in tracks if t["event"] in truth]
 
     def test_a_map_of_a_uniform_field_is_the_number(self):
-        self.file("three.map.gz", gzip.compress(map_of(lambda r, z: (0.0, 3.0)).encode()))
+        self.write("three.map.gz", gzip.compress(map_of(lambda r, z: (0.0, 3.0)).encode()))
         done = self.simulate("three.map.gz", 100)
         self.assertIn("three.map.gz, mean 3.0000 T, 3.0000 T", done.stdout)
         through_map = self.reconstruct("three.map.gz")
@@ -88,7 +67,7 @@ class Fields(unittest.TestCase):
                 self.assertAlmostEqual(float(a[name]), float(b[name]), delta=0.01 * float(b[f"sigma_{name}"]))
 
     def test_in_a_field_that_waves_by_3_per_cent_the_map_gives_right_momenta_and_the_number_does_not(self):
-        self.file("wavy.map", map_of(wavy))
+        self.write("wavy.map", map_of(wavy))
         self.simulate("wavy.map", 1500, "--noise-rate", 0)
         right = self.pulls_of_pz(self.reconstruct("wavy.map"))
         wrong = self.pulls_of_pz(self.reconstruct(3))
@@ -117,9 +96,9 @@ class Fields(unittest.TestCase):
     def test_bad_fields_are_refused_with_file_line_and_reason(self):
         self.simulate(3, 2)
         good = map_of(lambda r, z: (0.0, 3.0))
-        self.file("bad.map", good.replace("20 0 0.0 3.0", "20 0 0.0 x", 1))
-        self.file("cut.map.gz", gzip.compress(good.encode())[:-20])
-        self.file("short.map", HEAD + "".join(f"{r} {z} 0 3\n" for r in (0, 50, 100) for z in (0, 100, 200)))
+        self.write("bad.map", good.replace("20 0 0.0 3.0", "20 0 0.0 x", 1))
+        self.write("cut.map.gz", gzip.compress(good.encode())[:-20])
+        self.write("short.map", HEAD + "".join(f"{r} {z} 0 3\n" for r in (0, 50, 100) for z in (0, 100, 200)))
         for field, message in (("none.map", "none.map: cannot be opened: No such file or directory"), ("bad.map", "bad.map:72: bz: 'x' is not a number"),
                                ("cut.map.gz", "the gzip data end too early: the file is truncated"), ("s_digits.csv", "s_digits.csv:1: is not a field map"), ("coils", "--field coils: the geometry has no coils"),
                                ("short.map", "short.map: does not cover the axis of tracker"), ("nan", "--field: nan is not a number of tesla"), ("1e9", "--field: 1e9 is not a number of tesla")):
@@ -134,8 +113,5 @@ class Fields(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    BIN = pathlib.Path(sys.argv[1]).resolve()
-    if not all(os.access(BIN / name, os.X_OK) for name in ("scifi-simulate", "scifi-reconstruct")):
-        print("skipped: the programs were not built")
-        sys.exit(77)
-    unittest.main(argv=[sys.argv[0]] + sys.argv[2:])
+    programs.find("scifi-simulate", "scifi-reconstruct")
+    unittest.main()

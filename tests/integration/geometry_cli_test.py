@@ -10,14 +10,11 @@ SCIFI_SHARED_DATA in the environment names the folder of external data; tests th
 import json
 import os
 import pathlib
-import subprocess
-import sys
-import tempfile
 import unittest
 import xml.etree.ElementTree
 
-BIN = None
-SKIPPED = 77
+import programs
+
 SHARED = os.environ.get("SCIFI_SHARED_DATA")
 
 PLANE = """Module View{view}
@@ -50,25 +47,11 @@ def geometry(field=3):
             f"  Module Tracker\n  {{\n    PropertyInt Tracker 1\n    PropertyString Material He\n{stations}  }}\n}}\n")
 
 
-def run(program, *options):
-    return subprocess.run([BIN / program, *map(str, options)], capture_output=True, text=True, timeout=120, check=False)
-
-
-class Geometry(unittest.TestCase):
-    def setUp(self):
-        holder = tempfile.TemporaryDirectory()
-        self.addCleanup(holder.cleanup)
-        self.folder = pathlib.Path(holder.name)
-
-    def file(self, name, content):
-        path = self.folder / name
-        path.write_bytes(content if isinstance(content, bytes) else content.encode())
-        return path
-
+class Geometry(programs.InAFolder):
     def test_a_table_json_and_a_drawing_are_made_of_modules(self):
-        source = self.file("a.dat", geometry())
+        source = self.write("a.dat", geometry())
         out, drawing = self.folder / "a.json", self.folder / "a.svg"
-        done = run("scifi-geometry", source, "--json", out, "--svg", drawing)
+        done = self.run_program("scifi-geometry", source, "--json", out, "--svg", drawing)
         self.assertEqual(done.returncode, 0, done.stderr)
         for words in ("tracker 1", "beam towards +z", "field 3 T", "1100.0000", "planes of stations 1 to 5", "-120.000"):
             self.assertIn(words, done.stdout)
@@ -81,24 +64,24 @@ class Geometry(unittest.TestCase):
         texts = [e.text for e in root.iter("{http://www.w3.org/2000/svg}text")]
         self.assertEqual(sum(t.startswith("station ") for t in texts), 5)
         # The JSON says the same as the modules.
-        again = run("scifi-geometry", out)
+        again = self.run_program("scifi-geometry", out)
         self.assertEqual(again.returncode, 0, again.stderr)
         self.assertEqual(again.stdout.splitlines()[1:], done.stdout.splitlines()[1:])
 
     def test_the_other_programs_take_modules_and_their_field(self):
-        source = self.file("a.dat", geometry(field=2))
+        source = self.write("a.dat", geometry(field=2))
         prefix = self.folder / "sim"
-        done = run("scifi-simulate", "--geometry", source, "--events", 20, "--pt", 10, 30, "--radius", 30, "--output", prefix)
+        done = self.run_program("scifi-simulate", "--geometry", source, "--events", 20, "--pt", 10, 30, "--radius", 30, "--output", prefix)
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertIn("field 2 T", done.stdout)
-        done = run("scifi-reconstruct", f"{prefix}_digits.csv", "--geometry", source, "--output", self.folder / "t.csv")
+        done = self.run_program("scifi-reconstruct", f"{prefix}_digits.csv", "--geometry", source, "--output", self.folder / "t.csv")
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertIn("2 T, helices", done.stdout)
-        done = run("scifi-reconstruct", f"{prefix}_digits.csv", "--geometry", source, "--field", 3, "--output", self.folder / "t.csv")
+        done = self.run_program("scifi-reconstruct", f"{prefix}_digits.csv", "--geometry", source, "--field", 3, "--output", self.folder / "t.csv")
         self.assertIn("3 T, helices", done.stdout)
 
     def test_bad_geometries_end_with_status_2_file_line_and_reason(self):
-        self.file("ring.dat", "Module Ring\n{\n  Module a.dat\n  {\n  }\n}\n")
+        self.write("ring.dat", "Module Ring\n{\n  Module a.dat\n  {\n  }\n}\n")
         good = geometry()
         for content, words in (
                 ("", "describes no module"),
@@ -113,25 +96,25 @@ class Geometry(unittest.TestCase):
                 (good.replace("CentralFibre 105.5", "CentralFibre 1e300"), "CentralFibre: '1e300'"),
                 (good[:-4], "is not closed by }")):
             with self.subTest(words):
-                done = run("scifi-geometry", self.file("a.dat", content), "--json", self.folder / "a.json", "--svg", self.folder / "a.svg")
+                done = self.run_program("scifi-geometry", self.write("a.dat", content), "--json", self.folder / "a.json", "--svg", self.folder / "a.svg")
                 self.assertEqual(done.returncode, 2, done.stderr)
                 self.assertIn(words, done.stderr)
                 self.assertIn(".dat", done.stderr)
                 self.assertFalse(list(self.folder.glob("a.json*")) + list(self.folder.glob("a.svg*")))
 
     def test_bad_options_end_with_status_2(self):
-        source = self.file("a.dat", geometry())
+        source = self.write("a.dat", geometry())
         for options, words in (((self.folder / "none.dat",), "none.dat: cannot be opened"), ((source, "--svg", source), "would overwrite what is read"),
                                ((source, "--svg", self.folder / "x", "--json", self.folder / "x"), "the same file"),
                                ((source, "--svg", self.folder / "no" / "a.svg"), "cannot be written"), ((), "GEOMETRY")):
-            done = run("scifi-geometry", *options)
+            done = self.run_program("scifi-geometry", *options)
             self.assertEqual(done.returncode, 2, done.stderr)
             self.assertIn(words, done.stderr)
 
     @unittest.skipUnless(SHARED, "no external data")
     def test_the_experiment_s_geometry_is_converted(self):
         out = self.folder / "mice.json"
-        done = run("scifi-geometry", pathlib.Path(SHARED) / "mice" / "geometry" / "Step_4_def_5_2.dat", "--json", out)
+        done = self.run_program("scifi-geometry", pathlib.Path(SHARED) / "mice" / "geometry" / "Step_4_def_5_2.dat", "--json", out)
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertIn("-3.9", done.stderr)  # what the coils make of it
         theirs = json.loads((pathlib.Path(SHARED) / "g4" / "geometry.json").read_text())
@@ -142,8 +125,5 @@ class Geometry(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    BIN = pathlib.Path(sys.argv.pop(1))
-    if not (BIN / "scifi-geometry").exists():
-        print(f"skipped: no {BIN / 'scifi-geometry'}")
-        sys.exit(SKIPPED)
+    programs.find("scifi-geometry")
     unittest.main()

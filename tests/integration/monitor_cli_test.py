@@ -8,56 +8,26 @@ Exit status 77: a program was not built.
 """
 
 import collections
-import csv
 import json
 import math
-import pathlib
 import shutil
 import subprocess
-import sys
-import tempfile
 import time
 import unittest
 
-BIN = None
-SKIPPED = 77
-PAGE = "<html><script>@SCIFI_DATA@</script></html>"
+import programs
+
 EVENTS = 700
 
 
-def data_of(path):
-    text = path.read_text(encoding="utf-8")
-    before, after = PAGE.split("@SCIFI_DATA@")
-    assert text.startswith(before) and text.endswith(after), "the page is not whole"
-    return json.loads(text[len(before):len(text) - len(after)])
-
-
-def rows(path):
-    with open(path, newline="", encoding="utf-8") as stream:
-        return list(csv.DictReader(stream))
-
-
-class Monitor(unittest.TestCase):
+class Monitor(programs.BesideItsPage):
     @classmethod
     def setUpClass(cls):
-        cls.holder = tempfile.TemporaryDirectory()
-        cls.folder = pathlib.Path(cls.holder.name)
-        (cls.folder / "bin").mkdir()
-        cls.program = cls.folder / "bin" / "scifi-reconstruct"
-        shutil.copy(BIN / "scifi-reconstruct", cls.program)
-        (cls.folder / "share/scifi").mkdir(parents=True)
-        (cls.folder / "share/scifi/monitor.html").write_text(PAGE, encoding="utf-8")
-        subprocess.run([BIN / "scifi-simulate", "--events", str(EVENTS), "--seed", "6", "--output", "m"], cwd=cls.folder, check=True, capture_output=True)
+        super().setUpClass()
+        cls.install("scifi-reconstruct", "monitor.html")
+        cls.make("scifi-simulate", "--events", EVENTS, "--seed", 6, "--output", "m")
         cls.watched = cls.run_program("m_digits.csv", "--output", "watched.csv", "--track-points", "points.csv", "--monitor", "m.html", "--threads", "2")
-        cls.data = data_of(cls.folder / "m.html") if cls.watched.returncode == 0 else None
-
-    @classmethod
-    def tearDownClass(cls):
-        cls.holder.cleanup()
-
-    @classmethod
-    def run_program(cls, *arguments):
-        return subprocess.run([cls.program, *map(str, arguments)], cwd=cls.folder, capture_output=True, text=True, timeout=120)
+        cls.data = json.loads(cls.data_of("m.html")) if cls.watched.returncode == 0 else None
 
     def setUp(self):
         self.assertEqual(self.watched.returncode, 0, self.watched.stderr)
@@ -79,7 +49,7 @@ class Monitor(unittest.TestCase):
         self.assertLess(abs(status["written_at"] - time.time()), 300.0)
 
     def test_hit_maps_count_every_digit(self):
-        expected = collections.Counter((int(r["tracker"]), int(r["station"]), int(r["plane"]), int(r["channel"])) for r in rows(self.folder / "m_digits.csv"))
+        expected = collections.Counter((int(r["tracker"]), int(r["station"]), int(r["plane"]), int(r["channel"])) for r in programs.rows(self.folder / "m_digits.csv"))
         found = collections.Counter()
         for tracker in self.data["trackers"]:
             self.assertEqual(len(tracker["planes"]), 15)
@@ -108,7 +78,7 @@ class Monitor(unittest.TestCase):
         self.assertGreater(len(values), 100)
 
     def test_histograms_are_those_of_the_tables(self):
-        digits, tracks, points = (rows(self.folder / name) for name in ("m_digits.csv", "watched.csv", "points.csv"))
+        digits, tracks, points = (programs.rows(self.folder / name) for name in ("m_digits.csv", "watched.csv", "points.csv"))
         for tracker in (0, 1):
             here = lambda table: [r for r in table if int(r["tracker"]) == tracker]  # noqa: E731
             self.check_histogram("light", tracker, [float(r["npe"]) for r in here(digits)])
@@ -145,10 +115,10 @@ class Monitor(unittest.TestCase):
         seen = []
         while run.poll() is None:
             if page.exists():
-                seen.append(data_of(page)["status"])
+                seen.append(json.loads(self.data_of(page))["status"])
             time.sleep(0.02)
         self.assertEqual(run.returncode, 0)
-        seen.append(data_of(page)["status"])
+        seen.append(json.loads(self.data_of(page))["status"])
         events = [s["events"] for s in seen]
         self.assertEqual(events, sorted(events))
         self.assertEqual(seen[0]["state"], "running")
@@ -161,7 +131,7 @@ class Monitor(unittest.TestCase):
         (self.folder / "broken.csv").write_text(text + "oops\n", encoding="utf-8")
         result = self.run_program("broken.csv", "--output", "broken_tracks.csv", "--monitor", "broken.html")
         self.assertEqual(result.returncode, 2)
-        self.assertEqual(data_of(self.folder / "broken.html")["status"]["state"], "stopped")
+        self.assertEqual(json.loads(self.data_of(self.folder / "broken.html"))["status"]["state"], "stopped")
 
     def test_what_is_given_wrongly_is_named(self):
         for status, word, arguments in (
@@ -177,18 +147,14 @@ class Monitor(unittest.TestCase):
     def test_without_the_page_it_says_how_to_make_it(self):
         elsewhere = self.folder / "elsewhere" / "bin"
         elsewhere.mkdir(parents=True, exist_ok=True)
-        shutil.copy(BIN / "scifi-reconstruct", elsewhere)
+        shutil.copy(programs.BIN / "scifi-reconstruct", elsewhere)
         result = subprocess.run([elsewhere / "scifi-reconstruct", "m_digits.csv", "--monitor", "x.html"], cwd=self.folder, capture_output=True, text=True, timeout=60)
         self.assertEqual(result.returncode, 3)
         self.assertIn("scripts/web_assets", result.stderr)
 
 
 if __name__ == "__main__":
-    BIN = pathlib.Path(sys.argv.pop(1)).resolve()
-    if not all((BIN / name).exists() for name in ("scifi-simulate", "scifi-reconstruct")):
-        print("skipped: the programs are not built")
-        sys.exit(SKIPPED)
-    if "--monitor" not in subprocess.run([BIN / "scifi-reconstruct", "--help"], capture_output=True, text=True, check=True).stdout:
-        print("skipped: built without scifi::study, so without --monitor")
-        sys.exit(SKIPPED)
+    programs.find("scifi-simulate", "scifi-reconstruct")
+    if "--monitor" not in subprocess.run([programs.BIN / "scifi-reconstruct", "--help"], capture_output=True, text=True, check=True).stdout:
+        programs.skip("built without scifi::study, so without --monitor")
     unittest.main(verbosity=2)

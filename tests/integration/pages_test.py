@@ -7,31 +7,26 @@ BIN is the folder of the programs; scripts/web_assets has made the pages and fet
 SCIFI_SCREENSHOTS names a folder to keep the screenshots in.
 """
 
-import csv
 import json
 import os
 import pathlib
 import re
 import shutil
 import subprocess
-import sys
 import tempfile
 import unittest
 
-BIN = None
-SKIPPED = 77
+import programs
+
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 PACKAGES = ROOT / "build/web"
 CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser")
 
 
 def what_is_missing():
-    for name in ("scifi-display", "scifi-simulate", "scifi-reconstruct"):
-        if not (BIN / name).exists():
-            return f"{name} is not built"
     for page in ("display.html", "monitor.html"):
-        if not (BIN.parent / "share/scifi" / page).exists():
-            return f"no {page}: run scripts/web_assets {BIN.parent / 'share/scifi'}"
+        if not (programs.BIN.parent / "share/scifi" / page).exists():
+            return f"no {page}: run scripts/web_assets {programs.BIN.parent / 'share/scifi'}"
     if shutil.which("node") is None:
         return "no Node.js"
     if not (PACKAGES / "node_modules/playwright-core").exists():
@@ -55,7 +50,7 @@ class Pages(unittest.TestCase):
 
     @classmethod
     def run_program(cls, name, *arguments):
-        subprocess.run([BIN / name, *map(str, arguments)], cwd=cls.folder, check=True, capture_output=True, timeout=120)
+        subprocess.run([programs.BIN / name, *map(str, arguments)], cwd=cls.folder, check=True, capture_output=True, timeout=120)
 
     def browse(self, what, page, *more):
         result = subprocess.run(["node", ROOT / "tests/integration/pages.mjs", PACKAGES, CHROMIUM, what, page, self.shots, *more], cwd=self.folder, capture_output=True,
@@ -74,8 +69,7 @@ class Pages(unittest.TestCase):
         self.assertEqual(seen["errors"], [])
         self.assertEqual(seen["requests"], [])
 
-        with open(self.folder / "tracks.csv", newline="", encoding="utf-8") as stream:
-            tracks = [int(row["event"]) for row in csv.DictReader(stream)]
+        tracks = [int(row["event"]) for row in programs.rows(self.folder / "tracks.csv")]
         self.assertEqual(len(seen["events"]), 8)
         for number, event in enumerate(seen["events"]):
             self.assertEqual(event, {"event": str(number), "rows": tracks.count(number), "drawn": tracks.count(number)})
@@ -117,9 +111,8 @@ class Pages(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    BIN = pathlib.Path(sys.argv.pop(1)).resolve()
+    programs.find("scifi-display", "scifi-simulate", "scifi-reconstruct")
     missing = what_is_missing()
     if missing:
-        print("skipped:", missing)
-        sys.exit(SKIPPED)
+        programs.skip(missing)
     unittest.main(verbosity=2)

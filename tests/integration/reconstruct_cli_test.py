@@ -12,13 +12,11 @@ import gzip
 import json
 import math
 import os
-import pathlib
 import subprocess
-import sys
-import tempfile
 import unittest
 
-PROGRAM = None
+import programs
+
 HEADER = "event,tracker,station,plane,channel,adc,npe\n"
 # The downstream tracker of MICE: origins of its stations, mm; views and channels of its planes (see the geometry headers).
 ORIGINS = [(0.0, 0.0, 0.0), (-0.4698, 0.0052, 200.8936), (-0.6717, -0.1759, 449.8990), (0.1722, -0.2912, 749.8284), (0.0, 0.0, 1099.9026)]
@@ -66,25 +64,14 @@ def helical_events(numbers):
 GOOD = helical_events(range(3))
 
 
-class Reconstruct(unittest.TestCase):
-    def setUp(self):
-        self.scratch = tempfile.TemporaryDirectory(prefix="scifi_cli_")
-        self.folder = pathlib.Path(self.scratch.name)
-
-    def tearDown(self):
-        self.scratch.cleanup()
-
+class Reconstruct(programs.InAFolder):
     def run_on(self, content, *arguments, name="digits.csv"):
         if content is not None:
-            (self.folder / name).write_bytes(content if isinstance(content, bytes) else content.encode())
-        return subprocess.run([PROGRAM, *arguments, name], cwd=self.folder, capture_output=True, text=True, timeout=120, check=False)
+            self.write(name, content)
+        return self.run_program("scifi-reconstruct", *arguments, name)
 
     def rows(self, name="tracks.csv"):
-        with open(self.folder / name, newline="", encoding="ascii") as f:
-            return list(csv.DictReader(f))
-
-    def files(self):
-        return sorted(p.name for p in self.folder.iterdir())
+        return super().rows(name)
 
     def expect_refused(self, result, *sentences, status=2):
         self.assertEqual(result.returncode, status, result.stderr)
@@ -266,8 +253,8 @@ class Reconstruct(unittest.TestCase):
                 self.expect_refused(result)
                 self.assertNotEqual(result.stderr, "")
                 self.assertEqual(self.files(), ["digits.csv"])
-        self.assertEqual(subprocess.run([PROGRAM], capture_output=True, check=False, timeout=60).returncode, 2)
-        self.assertEqual(subprocess.run([PROGRAM, "--help"], capture_output=True, check=False, timeout=60).returncode, 0)
+        self.assertEqual(subprocess.run([programs.BIN / "scifi-reconstruct"], capture_output=True, check=False, timeout=60).returncode, 2)
+        self.assertEqual(subprocess.run([programs.BIN / "scifi-reconstruct", "--help"], capture_output=True, check=False, timeout=60).returncode, 0)
 
     def test_a_wrong_geometry_is_refused(self):
         for content, message in (("{", "g.json:1: is not JSON"), ('{"format": "scifi-geometry", "version": 2}', "g.json: version: version 2 is newer than version 1"),
@@ -291,8 +278,5 @@ class Reconstruct(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    PROGRAM = str(pathlib.Path(sys.argv[1]).resolve() / "scifi-reconstruct")
-    if not os.access(PROGRAM, os.X_OK):
-        print("skipped: scifi-reconstruct was not built")
-        sys.exit(77)
-    unittest.main(argv=[sys.argv[0]] + sys.argv[2:])
+    programs.find("scifi-reconstruct")
+    unittest.main()

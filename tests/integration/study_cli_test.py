@@ -24,8 +24,8 @@ import tempfile
 import unittest
 import zlib
 
-BIN = None
-PROGRAM = None
+import programs
+
 EVENTS = 400
 TRUTH_HEADER = "event,track,pdg,tracker,station,plane,x_mm,y_mm,z_mm,px_MeV,py_MeV,pz_MeV\n"
 
@@ -35,12 +35,6 @@ def python_that_draws():
         if shutil.which(python) and subprocess.run([python, "-c", "import matplotlib, numpy"], capture_output=True, check=False).returncode == 0:
             return python
     return None
-
-
-def rows(path):
-    opener = gzip.open if str(path).endswith(".gz") else open
-    with opener(path, "rt", newline="", encoding="ascii") as f:
-        return list(csv.DictReader(f))
 
 
 def quantile(values, q):
@@ -63,7 +57,7 @@ class Comparison:
 
     def __init__(self, truth, tracks, tracker):
         planes = {}
-        for r in rows(truth):
+        for r in programs.rows(truth):
             if int(r["tracker"]) == tracker:
                 state = [float(r[k]) for k in ("x_mm", "y_mm", "px_MeV", "py_MeV", "pz_MeV")]
                 planes.setdefault((int(r["event"]), int(r["track"])), {})[int(r["station"]), int(r["plane"])] = state
@@ -76,7 +70,7 @@ class Comparison:
             particles.setdefault(event, []).append([at, len(good), len(good) > 3 and 1 in good and math.hypot(at[2], at[3]) < 0.5 * abs(at[4]), None])
         self.ghosts = 0
         fitted = {}
-        for r in rows(tracks):
+        for r in programs.rows(tracks):
             if int(r["tracker"]) == tracker:
                 fitted.setdefault(int(r["event"]), []).append(r)
         for event, found in fitted.items():
@@ -143,8 +137,8 @@ class Study(unittest.TestCase):
     def setUpClass(cls):
         cls.shared = tempfile.TemporaryDirectory(prefix="scifi_study_")
         cls.data = pathlib.Path(cls.shared.name)
-        cls.call([BIN / "scifi-simulate", "--events", str(EVENTS), "--tracker", "both", "--seed", "5", "--output", "muons"])
-        cls.call([BIN / "scifi-reconstruct", "--field", "3", "--output", "tracks.csv", "--track-points", "points.csv", "muons_digits.csv"])
+        cls.call([programs.BIN / "scifi-simulate", "--events", str(EVENTS), "--tracker", "both", "--seed", "5", "--output", "muons"])
+        cls.call([programs.BIN / "scifi-reconstruct", "--field", "3", "--output", "tracks.csv", "--track-points", "points.csv", "muons_digits.csv"])
         cls.study = cls.run_here("muons_truth.csv", "tracks.csv", "--track-points", "points.csv", "--digits", "muons_digits.csv", "--no-page", "-o", "full")
         assert cls.study.returncode == 0, cls.study.stderr
         cls.result = cls.load("full")
@@ -159,7 +153,7 @@ class Study(unittest.TestCase):
 
     @classmethod
     def run_here(cls, *arguments):
-        return subprocess.run([PROGRAM, *arguments], cwd=cls.data, capture_output=True, text=True, timeout=300, check=False)
+        return subprocess.run([programs.BIN / "scifi-study", *arguments], cwd=cls.data, capture_output=True, text=True, timeout=300, check=False)
 
     @classmethod
     def load(cls, folder):
@@ -247,7 +241,7 @@ class Study(unittest.TestCase):
                     self.assertLess(abs(of["median"]), 0.29, (p["station"], p["plane"], name))
 
     def test_digits_are_counted_and_triplets_sum_to_the_constant(self):
-        digits = rows(self.data / "muons_digits.csv")
+        digits = programs.rows(self.data / "muons_digits.csv")
         for block in self.result["trackers"]:
             mine = [r for r in digits if int(r["tracker"]) == block["tracker"]]
             d = block["digits"]
@@ -305,7 +299,7 @@ class Study(unittest.TestCase):
         shared = pathlib.Path(os.environ["SCIFI_SHARED_DATA"]).absolute()
         for name, field, straight in (("tkd_mix", "3", []), ("tkd_multi2", "3", []), ("tkd_straight", "0", ["--straight"])):
             truth = shared / "g4" / f"{name}_truth.csv.gz"
-            self.call([BIN / "scifi-reconstruct", "--field", field, "--output", f"{name}.csv", shared / "g4" / f"{name}_digits.csv.gz"])
+            self.call([programs.BIN / "scifi-reconstruct", "--field", field, "--output", f"{name}.csv", shared / "g4" / f"{name}_digits.csv.gz"])
             done = self.run_here(truth, f"{name}.csv", "--field", field, "--no-page", "-o", name)
             self.assertEqual(done.returncode, 0, done.stderr)
             ours = self.load(name)
@@ -441,11 +435,5 @@ class Study(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    if len(sys.argv) < 2:
-        sys.exit(__doc__)
-    BIN = pathlib.Path(sys.argv.pop(1)).absolute()
-    PROGRAM = BIN / "scifi-study"
-    if not PROGRAM.exists():
-        print(f"{PROGRAM} was not built")
-        sys.exit(77)
+    programs.find("scifi-study", "scifi-simulate", "scifi-reconstruct")
     unittest.main()

@@ -8,7 +8,7 @@
 #include <scifi/core/pack.hpp>
 
 /// Elementary functions of packs, found by argument-dependent lookup. Series in the reduced argument, cut where the next term is below the rounding error;
-/// within 3 units in the last place of the true value over the ranges given.
+/// within 1.5 units in the last place of the true value over the ranges given, sine and cosine of the larger of it and one.
 namespace scifi {
 
 namespace detail {
