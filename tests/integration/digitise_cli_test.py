@@ -220,7 +220,7 @@ class Digitise(programs.InAFolder):
                                  (good + "1,0,0,1\n", "raw.csv:3: 4 fields where the header names 5"), (good + "1,16,0,1,9\n", "raw.csv:3: board: 16 is outside 0 .. 15"),
                                  (good + "1,0,-1,1,9\n", "raw.csv:3: bank: -1 is outside 0 .. 3"), (good + "1,0,0,128,9\n", "raw.csv:3: channel: 128 is outside"),
                                  (good + "1,0,0,1,256\n", "raw.csv:3: adc: 256 is outside 0 .. 255"), (good + "1,0,0,1,nan\n", "raw.csv:3: adc: 'nan' is not a whole number"),
-                                 (good + "0,0,0,1,91\n", "raw.csv:3: channel: a second count of this channel"), (good + "-1,0,0,1,91\n", "raw.csv:3: event: -1 comes after 0"),
+                                 (good + "0,0,0,1,91\n", "raw.csv:3: channel: a second count of this channel"), (good + "-1,0,0,1,91\n", "raw.csv:3: event: event numbers must not be negative"),
                                  ((good + "1,0,0,1,9\n").encode("utf-16"), "raw.csv:1: event: the header has no column"),
                                  (gzip.compress(good.encode())[:-5], "the gzip data end too early")):
             with self.subTest(message=message):
