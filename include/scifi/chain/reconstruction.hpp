@@ -49,14 +49,21 @@ class reconstruction {
   reconstruction(detector where, ClusterFinder clusters, SpacePointFinder points, std::vector<stages> trackers)
       : where_(std::move(where)), find_clusters_(std::move(clusters)), find_points_(std::move(points)), trackers_(std::move(trackers)) {}
 
-  /// Fills the event from its digits, which are sorted on the way. What was reconstructed before is replaced.
-  void operator()(event& e, buffers& work) const { (*this)(std::span(&e, 1), work); }
+  /// Fills the event (any event_record) from its digits, which are sorted on the way. What was reconstructed before is replaced.
+  template <class Event>
+  void operator()(Event& e, buffers& work) const {
+    (*this)(std::span<Event>(&e, 1), work);
+  }
 
   /// The same for a block of events: their tracks are fitted together, where the fitter can one in each SIMD lane.
-  void operator()(std::span<event> events, buffers& work) const {
+  template <class Event>
+  void operator()(std::span<Event> events, buffers& work) const {
+    static_assert(event_record<Event>,
+                  "scifi: an event needs members digits (with channel_of and light_of beside their type), clusters, space_points, candidates, tracks, "
+                  "track_points and flags");
     work.first_candidates.clear();
-    for (event& e : events) {
-      e.clear_reconstruction();
+    for (Event& e : events) {
+      clear_reconstruction(e);
       find_clusters_(where_, e.digits, e.clusters);
       for (const stages& s : trackers_) {
         work.first_candidates.push_back(e.candidates.size());
@@ -70,7 +77,8 @@ class reconstruction {
   }
 
   /// The same with memory of its own for this call.
-  void operator()(event& e) const {
+  template <class Event>
+  void operator()(Event& e) const {
     buffers work;
     (*this)(e, work);
   }
@@ -79,31 +87,32 @@ class reconstruction {
 
  private:
   /// Fits what was found in one tracker in all events, and appends it to them.
-  void fit_tracks(const stages& s, std::size_t tracker, std::span<event> events, buffers& work) const {
+  template <class Event>
+  void fit_tracks(const stages& s, std::size_t tracker, std::span<Event> events, buffers& work) const {
     work.jobs.clear();
     const auto each_candidate = [&](const auto& f) {
       const std::size_t* first = work.first_candidates.data() + tracker;
-      for (event& e : events) {
+      for (Event& e : events) {
         for (std::size_t i = first[0]; i < first[1]; ++i) f(e, i);
         first += trackers_.size() + 1;
       }
     };
-    const auto judge = [&s](event& e) {
+    const auto judge = [&s](Event& e) {
       e.flags.fit_failed |= !e.tracks.back().status.ok();
       if (!left_before_reference(e.tracks.back(), s.where)) return;
       e.track_points.resize(static_cast<std::size_t>(e.tracks.back().first_point));
       e.tracks.pop_back();
     };
     if constexpr (requires { s.fit_track.fit_batch(work.jobs, work.fitted, work.fit); }) {
-      each_candidate([&work](event& e, std::size_t i) { work.jobs.push_back({&e.candidates[i], static_cast<int>(i), e.space_points, e.clusters}); });
+      each_candidate([&work](Event& e, std::size_t i) { work.jobs.push_back({&e.candidates[i], static_cast<int>(i), e.space_points, e.clusters}); });
       s.fit_track.fit_batch(work.jobs, work.fitted, work.fit);
       std::size_t next = 0;
-      each_candidate([&](event& e, std::size_t) {
+      each_candidate([&](Event& e, std::size_t) {
         append(work.fitted[next++], e.tracks, e.track_points);
         judge(e);
       });
     } else {
-      each_candidate([&](event& e, std::size_t i) {
+      each_candidate([&](Event& e, std::size_t i) {
         s.fit_track(e.candidates[i], static_cast<int>(i), e.space_points, e.clusters, e.tracks, e.track_points, work.fit);
         judge(e);
       });

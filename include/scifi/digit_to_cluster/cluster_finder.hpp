@@ -3,6 +3,9 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <functional>
+#include <ranges>
+#include <span>
 #include <vector>
 
 #include <scifi/digit_to_cluster/cluster_resolution.hpp>
@@ -21,18 +24,21 @@ struct cluster_finder {
   double min_npe = 2.0;
   Resolution resolution{};
 
-  /// Sorts `digits` by id and appends the clusters, ordered by tracker, station, plane and channel. `first_digit` refers to the sorted order.
-  /// Digits of planes that `where` does not have are skipped.
-  void operator()(const detector& where, std::vector<digit>& digits, std::vector<cluster>& clusters) const {
-    std::sort(digits.begin(), digits.end(), [](const digit& a, const digit& b) { return a.id < b.id; });
-    for (std::size_t i = 0; i < digits.size();) {
-      if (digits[i].npe < min_npe) {
+  /// Sorts `digits` (any digit_record) by channel and appends the clusters, ordered by tracker, station, plane and channel. `first_digit` refers to the
+  /// sorted order. Digits of planes that `where` does not have are skipped.
+  template <std::ranges::contiguous_range Digits>
+    requires digit_record<std::ranges::range_value_t<Digits>>
+  void operator()(const detector& where, Digits& digits, std::vector<cluster>& clusters) const {
+    std::ranges::sort(digits, std::less{}, [](const auto& d) { return channel_of(d); });
+    const std::span<const std::ranges::range_value_t<Digits>> all(digits);
+    for (std::size_t i = 0; i < all.size();) {
+      if (!(light_of(all[i]) >= min_npe)) {
         ++i;
         continue;
       }
       std::size_t end = i + 1;
-      while (end < digits.size() && digits[end].npe >= min_npe && next_to(digits[end - 1].id, digits[end].id)) ++end;
-      if (const plane* p = where.find_plane(digits[i].id)) cut(*p, digits, i, end, clusters);
+      while (end < all.size() && light_of(all[end]) >= min_npe && next_to(channel_of(all[end - 1]), channel_of(all[end]))) ++end;
+      if (const plane* p = where.find_plane(channel_of(all[i]))) cut(*p, all, i, end, clusters);
       i = end;
     }
   }
@@ -44,13 +50,14 @@ struct cluster_finder {
   }
 
   /// Clusters of the run [begin, end): the brightest channel takes its brighter neighbour, what is left on either side is cut again.
-  void cut(const plane& p, const std::vector<digit>& digits, std::size_t begin, std::size_t end, std::vector<cluster>& clusters) const {
+  template <class Digit>
+  void cut(const plane& p, std::span<const Digit> digits, std::size_t begin, std::size_t end, std::vector<cluster>& clusters) const {
     if (begin == end) return;
     if (end - begin <= 2) {
       clusters.push_back(make(p, digits, begin, end));
       return;
     }
-    const auto brighter = [&digits](std::size_t a, std::size_t b) { return digits[a].npe < digits[b].npe; };
+    const auto brighter = [&digits](std::size_t a, std::size_t b) { return light_of(digits[a]) < light_of(digits[b]); };
     std::size_t seed = begin;
     for (std::size_t i = begin; i < end; ++i)
       if (brighter(seed, i)) seed = i;
@@ -61,20 +68,22 @@ struct cluster_finder {
     cut(p, digits, first + 2, end, clusters);
   }
 
-  [[nodiscard]] cluster make(const plane& p, const std::vector<digit>& digits, std::size_t begin, std::size_t end) const {
+  template <class Digit>
+  [[nodiscard]] cluster make(const plane& p, std::span<const Digit> digits, std::size_t begin, std::size_t end) const {
     cluster c;
-    const channel_id& id = digits[begin].id;
+    const channel_id id = channel_of(digits[begin]);
     c.tracker = id.tracker;
     c.station = id.station;
     c.plane = id.plane;
     c.first_digit = static_cast<int>(begin);
     c.size = static_cast<int>(end - begin);
-    cluster_light light{c.size, digits[begin].npe, 0.0};
+    cluster_light light{c.size, light_of(digits[begin]), 0.0};
     double channels = 0.0;
     for (std::size_t i = begin; i < end; ++i) {
-      channels += digits[i].id.channel;
-      light.total += digits[i].npe;
-      light.least = std::min(light.least, digits[i].npe);
+      const double npe = light_of(digits[i]);
+      channels += channel_of(digits[i]).channel;
+      light.total += npe;
+      light.least = std::min(light.least, npe);
     }
     c.channel = channels / c.size;
     c.npe = light.total;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MPL-2.0
 #pragma once
 
+#include <concepts>
+#include <ranges>
 #include <vector>
 
 #include <scifi/event/candidate.hpp>
@@ -31,19 +33,39 @@ struct event {
   event_flags flags;
 
   /// Empties everything but keeps the memory.
-  void clear() {
-    digits.clear();
-    clear_reconstruction();
-  }
-  /// Empties what was made of the digits.
-  void clear_reconstruction() {
-    clusters.clear();
-    space_points.clear();
-    candidates.clear();
-    tracks.clear();
-    track_points.clear();
-    flags = {};
-  }
+  void clear();
 };
+
+/// An event that the chain can fill: `event`, or a type of a host framework with members (values or references) of these names. Its digits are a contiguous
+/// range of any digit_record, which the chain sorts; the rest are vectors as in `event`.
+/// Laws: a member named twice gives the same object; no two events share one.
+template <class E>
+concept event_record = requires(E& e) {
+  requires std::ranges::contiguous_range<decltype((e.digits))>;
+  requires digit_record<std::ranges::range_value_t<decltype((e.digits))>>;
+  { e.clusters } -> std::same_as<std::vector<cluster>&>;
+  { e.space_points } -> std::same_as<std::vector<space_point>&>;
+  { e.candidates } -> std::same_as<std::vector<candidate>&>;
+  { e.tracks } -> std::same_as<std::vector<track>&>;
+  { e.track_points } -> std::same_as<std::vector<track_point>&>;
+  { e.flags } -> std::same_as<event_flags&>;
+};
+static_assert(event_record<event>);
+
+/// Empties what the chain makes of the digits but keeps the memory.
+template <event_record Event>
+void clear_reconstruction(Event& e) {
+  e.clusters.clear();
+  e.space_points.clear();
+  e.candidates.clear();
+  e.tracks.clear();
+  e.track_points.clear();
+  e.flags = {};
+}
+
+inline void event::clear() {
+  digits.clear();
+  clear_reconstruction(*this);
+}
 
 }  // namespace scifi

@@ -40,7 +40,7 @@ TEST_CASE("clearing an event empties it and keeps its memory", "[event]") {
 
 TEST_CASE("clearing the reconstruction keeps what the detector said", "[event]") {
   scifi::event e = full();
-  e.clear_reconstruction();
+  clear_reconstruction(e);
   CHECK(e.number == 12);
   CHECK(e.digits.size() == 30);
   CHECK(e.clusters.empty());
