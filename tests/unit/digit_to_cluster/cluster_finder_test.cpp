@@ -2,6 +2,8 @@
 #include <scifi/digit_to_cluster/cluster_finder.hpp>
 
 #include <algorithm>
+#include <limits>
+#include <span>
 #include <vector>
 
 #include <scifi/geometry/mice.hpp>
@@ -9,6 +11,18 @@
 #include "support/catch.hpp"
 
 using namespace scifi;
+
+namespace host {
+
+/// A digit of someone else, with other names and other numbers in it.
+struct signal {
+  int tspc;
+  float photons;
+};
+channel_id channel_of(const signal& s) { return channel_from_tspc(s.tspc); }
+double light_of(const signal& s) { return static_cast<double>(s.photons); }
+
+}  // namespace host
 
 namespace {
 
@@ -163,4 +177,31 @@ TEST_CASE("the resolution can be replaced", "[digit_to_cluster]") {
   cluster_finder{2.0, fixed{}}(where, digits, out);
   REQUIRE(out.size() == 1);
   CHECK(out[0].variance == 2.0 + 3.0 + 800.0);
+}
+
+TEST_CASE("digits of another framework are taken where they are", "[digit_to_cluster]") {
+  std::vector<host::signal> signals{{112031, 4.0F}, {12100, 8.0F}, {12099, 5.5F}, {112032, 1.5F}};
+  std::vector<digit> digits;
+  for (const host::signal& s : signals) digits.push_back({channel_of(s), light_of(s)});
+  std::vector<cluster> theirs, ours;
+  std::span<host::signal> view(signals);
+  cluster_finder{}(where, view, theirs);
+  cluster_finder{}(where, digits, ours);
+  REQUIRE(theirs.size() == 2);
+  REQUIRE(ours.size() == 2);
+  for (std::size_t i = 0; i < 2; ++i) {
+    CHECK(theirs[i].tracker == ours[i].tracker);
+    CHECK(theirs[i].alpha == ours[i].alpha);
+    CHECK(theirs[i].npe == ours[i].npe);
+    CHECK(theirs[i].first_digit == ours[i].first_digit);
+  }
+  CHECK(signals.front().tspc == 12099);  // sorted in place
+}
+
+TEST_CASE("a digit whose light is no number is left out", "[digit_to_cluster]") {
+  std::vector<digit> digits{at(10, std::numeric_limits<double>::quiet_NaN()), at(11, 7.0), at(12, std::numeric_limits<double>::quiet_NaN())};
+  std::vector<cluster> out;
+  cluster_finder{}(where, digits, out);
+  REQUIRE(out.size() == 1);
+  CHECK(out[0].channel == 11.0);
 }
