@@ -3,11 +3,13 @@
 
 #include <exception>
 #include <stdexcept>
+#include <string>
 
 #include <CLI/CLI.hpp>
 #include <fmt/core.h>
 
 #include <scifi/io/input_error.hpp>
+#include <scifi/version.hpp>
 
 /// How every program here ends: 0 done, 2 something was given wrongly, 3 it could not be done (a full disk, say). A message goes to standard error.
 inline constexpr int exit_given_wrongly = 2;
@@ -16,6 +18,7 @@ inline constexpr int exit_not_done = 3;
 /// Parses the command line, then calls `run()`, which throws what went wrong; `name` stands before each message. Returns the exit status.
 template <class Run>
 [[nodiscard]] int run_program(const char* name, CLI::App& app, int argc, char** argv, const Run& run) {
+  app.set_version_flag("--version", std::string(scifi::version));
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& e) {

@@ -22,7 +22,6 @@
 #include <scifi/io/atomic_file.hpp>
 #include <scifi/io/bad_channels_text.hpp>
 #include <scifi/io/cabling_text.hpp>
-#include <scifi/version.hpp>
 
 #include "run_program.hpp"
 
@@ -184,7 +183,6 @@ int main(int argc, char** argv) {
   CLI::App app{"A store of documents that describe the detector, each for an interval of runs and recorded at a time. For a run, the latest recorded is in force.\n"
                "Dates are UTC: 2015-11-05 or 2015-11-05T14:30:00Z. Nothing is ever overwritten."};
   app.add_option("STORE", o.store, "the file of the store; add makes it")->required();
-  app.set_version_flag("--version", std::string(scifi::version));
   app.require_subcommand(1);
   const auto subcommand = [&](const char* name, const char* what, void (*does)(const options&)) {
     CLI::App* const sub = app.add_subcommand(name, what);

@@ -167,6 +167,5 @@ int main(int argc, char** argv) {
   app.add_option("--geometry", o.geometry, "geometry in JSON or MiceModules that goes with the cabling; the MICE trackers unless given");
   app.add_option("--min-npe", o.min_npe, "least light of a digit, photo-electrons")->capture_default_str();
   app.add_option("-o,--output", o.output, "digits: MICE JSON, one event a spill, where the name ends in .json, else CSV")->capture_default_str();
-  app.set_version_flag("--version", std::string(scifi::version));
   return run_program("scifi-digitise", app, argc, argv, [&o] { run(o); });
 }

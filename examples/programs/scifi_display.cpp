@@ -21,7 +21,6 @@
 #include <scifi/io/event_view_json.hpp>
 #include <scifi/io/html_page.hpp>
 #include <scifi/io/phoenix_json.hpp>
-#include <scifi/version.hpp>
 
 #include "conditions/stored_conditions.hpp"
 #include "display/display_events.hpp"
@@ -136,6 +135,5 @@ int main(int argc, char** argv) {
   app.add_option("--output", o.output, "the page, HTML")->capture_default_str();
   app.add_option("--phoenix", o.phoenix, "write the events for the Phoenix event display too, JSON");
   app.add_option("--json", o.json, "write the page's data too, JSON");
-  app.set_version_flag("--version", std::string(scifi::version));
   return run_program("scifi-display", app, argc, argv, [&o] { run(o); });
 }

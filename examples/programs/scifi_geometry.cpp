@@ -14,7 +14,6 @@
 #include <scifi/io/any_geometry.hpp>
 #include <scifi/io/atomic_file.hpp>
 #include <scifi/io/geometry_svg.hpp>
-#include <scifi/version.hpp>
 
 #include "run_program.hpp"
 
@@ -121,6 +120,5 @@ int main(int argc, char** argv) {
   app.add_option("GEOMETRY", o.geometry, "geometry in JSON (.json) or MiceModules (.dat); may be gzip")->required();
   app.add_option("--json", o.json, "write the geometry as JSON to this file");
   app.add_option("--svg", o.svg, "draw the geometry to this file: planes from the front, stations from the side");
-  app.set_version_flag("--version", std::string(scifi::version));
   return run_program("scifi-geometry", app, argc, argv, [&o] { run(o); });
 }

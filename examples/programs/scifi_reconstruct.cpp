@@ -182,6 +182,5 @@ int main(int argc, char** argv) {
   app.add_option("--track-points", o.track_points, "the tracks at every plane, CSV; not written unless given");
   app.add_option("--threads", o.threads, "number of threads; 0: all cores. The output does not depend on it")->capture_default_str();
   o.watch.offer(app);
-  app.set_version_flag("--version", std::string(scifi::version));
   return run_program("scifi-reconstruct", app, argc, argv, [&o] { run(o); });
 }

@@ -207,6 +207,5 @@ int main(int argc, char** argv) {
   app.add_option("--wide-pz-edges", o.study.wide_edges.pz, "likewise")->delimiter(',')->capture_default_str();
   app.add_option("--python", o.python, "Python 3 with matplotlib that draws; unless given the one on the path, else the system's");
   app.add_flag("--no-page", o.no_page, "write study.json alone");
-  app.set_version_flag("--version", std::string(scifi::version));
   return run_program("scifi-study", app, argc, argv, [&o] { run(o); });
 }
