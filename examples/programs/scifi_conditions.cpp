@@ -124,7 +124,7 @@ void convert_mice_modules(const options& o, scifi::new_condition& given) {
 
 void add(const options& o) {
   scifi::new_condition given{.kind = *kind_of(o), .tracker = o.tracker, .runs = option_value("--runs", [&] { return scifi::run_interval_from(o.runs); }),
-                             .recorded = {}, .source = fs::path(o.file).filename().string(), .comment = o.comment, .document = scifi::read_document(o.file)};
+                             .recorded = {}, .source = fs::path(o.file).filename().string(), .comment = o.comment, .document = scifi::text_of_file(o.file)};
   if (!o.recorded.empty()) given.recorded = option_value("--recorded", [&] { return scifi::recorded_time_from(o.recorded); });
   convert_mice_modules(o, given);
   const bool checked = check_document(checks_for(o, given), given.kind, given.document, o.file);

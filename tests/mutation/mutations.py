@@ -59,8 +59,8 @@ MUTATIONS = [
     # from light to tracks
     ("candidate_to_track/fit_probability.hpp", "f.chi2 - f.closure)", "f.chi2)"),
     ("candidate_to_track/robust_refit.hpp", "0.5 * (n.chi2 + std::log(n.residual_covariance(0, 0)))", "0.5 * n.chi2"),
-    ("digit_to_cluster/cluster_finder.hpp", "if (digits[i].npe < min_npe) {", "if (digits[i].npe > min_npe) {"),
-    ("digit_to_cluster/cluster_finder.hpp", "digits[end].npe >= min_npe && next_to", "next_to"),
+    ("digit_to_cluster/cluster_finder.hpp", "if (light_of(all[i]) < min_npe) {", "if (light_of(all[i]) > min_npe) {"),
+    ("digit_to_cluster/cluster_finder.hpp", "light_of(all[end]) >= min_npe && next_to", "next_to"),
     ("cluster_to_space_point/crossing.hpp", "out.chi2 = squares - in_station.dot(sum);", "out.chi2 = squares;"),
     ("cluster_to_space_point/crossing.hpp", "to_tracker << c, -s, s, c;", "to_tracker << c, s, s, c;"),
     ("hit_to_digit/light_yield.hpp", "(1.0 + mirror)", "(1.0 - mirror)"),

@@ -64,7 +64,7 @@ class reconstruction {
     work.first_candidates.clear();
     for (Event& e : events) {
       clear_reconstruction(e);
-      find_clusters_(where_, e.digits, e.clusters);
+      e.flags.digits_left_out = !find_clusters_(where_, e.digits, e.clusters);
       for (const stages& s : trackers_) {
         work.first_candidates.push_back(e.candidates.size());
         const bool points_complete = find_points_(s.where, e.clusters, e.space_points, work.space_points);

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstddef>
-#include <filesystem>
 #include <functional>
 #include <string>
 #include <vector>
@@ -12,7 +11,6 @@
 #include <scifi/io/geometry_json.hpp>
 #include <scifi/io/input_error.hpp>
 #include <scifi/io/json_field.hpp>
-#include <scifi/io/text_source.hpp>
 
 namespace scifi {
 
@@ -48,22 +46,6 @@ struct document_check {
   for (const document_check& c : checks)
     if (c.kind == kind && c.reads(document, file)) return true;
   return false;
-}
-
-/// The text of a file as it goes into a store, unpacked if it is gzip. Throws input_error, also for more than `most` bytes.
-[[nodiscard]] inline std::string read_document(const std::filesystem::path& path, std::size_t most = std::size_t{1} << 28) {
-  text_source source(path);
-  std::string text;
-  constexpr std::size_t block = std::size_t{1} << 16;
-  std::size_t n = 0;
-  do {
-    const std::size_t old = text.size();
-    if (old > most) throw input_error(source.name(), 0, "", "is longer than " + std::to_string(most) + " bytes");
-    text.resize(old + block);
-    n = source.read(text.data() + old, block);
-    text.resize(old + n);
-  } while (n > 0);
-  return text;
 }
 
 }  // namespace scifi

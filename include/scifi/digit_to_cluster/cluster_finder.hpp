@@ -19,31 +19,47 @@ namespace scifi {
 ///
 /// Digits below `min_npe` photo-electrons are left out. A run of one or two channels is one cluster; a longer one is cut from its
 /// brightest channel outwards into pairs and singles, since one crossing lights at most two channels. The channel is the unweighted mean.
+/// A digit of a channel that the detector does not have or that has a digit already, or with light that is no number below `most_npe`, is left out.
 template <cluster_resolution Resolution = fibre_resolution>
 struct cluster_finder {
   double min_npe = 2.0;
   Resolution resolution{};
+  static constexpr double most_npe = 1.0e9;  ///< photo-electrons: no photon counter gives more, and sums of them stay finite
 
   /// Sorts `digits` (any digit_record) by channel and appends the clusters, ordered by tracker, station, plane and channel. `first_digit` refers to the
-  /// sorted order. Digits of planes that `where` does not have are skipped.
+  /// sorted order. Returns false when digits had to be left out; those with too little light do not count.
   template <std::ranges::contiguous_range Digits>
     requires digit_record<std::ranges::range_value_t<Digits>>
-  void operator()(const detector& where, Digits& digits, std::vector<cluster>& clusters) const {
+  bool operator()(const detector& where, Digits& digits, std::vector<cluster>& clusters) const {
     std::ranges::sort(digits, std::less{}, [](const auto& d) { return channel_of(d); });
     const std::span<const std::ranges::range_value_t<Digits>> all(digits);
+    bool complete = true;
     for (std::size_t i = 0; i < all.size();) {
-      if (!(light_of(all[i]) >= min_npe)) {
+      if (light_of(all[i]) < min_npe) {
+        ++i;
+        continue;
+      }
+      const plane* const p = where.find_plane(channel_of(all[i]));
+      const bool repeated = i > 0 && channel_of(all[i - 1]) == channel_of(all[i]);
+      if (p == nullptr || repeated || !can_be_in(*p, all[i])) {
+        complete = false;
         ++i;
         continue;
       }
       std::size_t end = i + 1;
-      while (end < all.size() && light_of(all[end]) >= min_npe && next_to(channel_of(all[end - 1]), channel_of(all[end]))) ++end;
-      if (const plane* p = where.find_plane(channel_of(all[i]))) cut(*p, all, i, end, clusters);
+      while (end < all.size() && light_of(all[end]) >= min_npe && next_to(channel_of(all[end - 1]), channel_of(all[end])) && can_be_in(*p, all[end])) ++end;
+      cut(*p, all, i, end, clusters);
       i = end;
     }
+    return complete;
   }
 
  private:
+  /// False too for light that is no number.
+  template <class Digit>
+  [[nodiscard]] static bool can_be_in(const plane& p, const Digit& d) {
+    return p.has_channel(channel_of(d).channel) && light_of(d) <= most_npe;
+  }
   [[nodiscard]] static bool next_to(channel_id lower, const channel_id& upper) {
     ++lower.channel;
     return lower == upper;

@@ -15,6 +15,7 @@ namespace scifi {
 
 /// What a stage had to leave out of an event. Nothing is dropped without one of these being set.
 struct event_flags {
+  bool digits_left_out = false;        ///< a digit of no channel or of one that had a digit already, or with light that is no number
   bool combinations_limited = false;   ///< a combinatorial search reached its bound
   bool fit_failed = false;             ///< at least one candidate could not be fitted
   friend constexpr bool operator==(const event_flags&, const event_flags&) = default;

@@ -44,7 +44,12 @@ class event_rows {
 
   void advance() {
     const long last = next_;
-    next_ = rows_.next_row() ? rows_.whole_number<long>(0) : no_more;
+    if (!rows_.next_row()) {
+      next_ = no_more;
+      return;
+    }
+    next_ = rows_.whole_number<long>(0);
+    if (next_ == no_more) rows_.fail("event", std::to_string(next_) + " is too large for an event number");
     if (next_ < 0) rows_.fail("event", "event numbers must not be negative");
     if (next_ < last)
       rows_.fail("event", std::to_string(next_) + " comes after " + std::to_string(last) + ": the rows of an event must stand together and event numbers must grow");

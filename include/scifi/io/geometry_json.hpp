@@ -50,6 +50,11 @@ class geometry_parser {
       d.trackers.push_back(std::move(t));
     }
     if (d.trackers.empty()) trackers.fail("names no tracker");
+    std::size_t channels = 0;
+    for (const tracker& t : d.trackers)
+      for (const station& s : t.stations)
+        for (const plane& p : s.planes) channels += static_cast<std::size_t>(p.channels);
+    if (channels > most_channels_in_all) trackers.fail("have " + std::to_string(channels) + " channels, more than " + std::to_string(most_channels_in_all));
     return d;
   }
 
@@ -175,6 +180,7 @@ class geometry_parser {
 
   static constexpr double rounding = 1.0e-6;       // mm
   static constexpr int most_channels = 1'000'000;  // a typing error, not a detector
+  static constexpr std::size_t most_channels_in_all = 10'000'000;  // each takes memory
   json_field root_;
   std::map<std::string, material, std::less<>> media_;
 };

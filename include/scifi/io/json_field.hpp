@@ -54,6 +54,8 @@ class json_field {
   }
   /// A finite number.
   [[nodiscard]] double number() const {
+    // A list or an object is not written out: it may be nested deeper than the stack is.
+    if (value_->is_structured()) fail(std::string(value_->is_array() ? "a list" : "an object") + " is not a number");
     if (!value_->is_number()) fail(in_quotes(value_->dump()) + " is not a number");
     const double x = value_->get<double>();
     if (!std::isfinite(x)) fail("is not a finite number");
@@ -108,18 +110,9 @@ class json_field {
 
 /// Reads a file, plain or gzip, that is one JSON document. Throws input_error when it is not.
 [[nodiscard]] inline nlohmann::json read_json(const std::filesystem::path& path) {
-  text_source source(path);
-  std::string text;
-  constexpr std::size_t block = std::size_t{1} << 16;
-  std::size_t n = 0;
-  do {
-    const std::size_t old = text.size();
-    text.resize(old + block);
-    n = source.read(text.data() + old, block);
-    text.resize(old + n);
-  } while (n > 0);
-  if (text.empty()) throw input_error(source.name(), 0, "", "the file is empty");
-  return parse_json(text, source.name());
+  const std::string text = text_of_file(path);
+  if (text.empty()) throw input_error(path.string(), 0, "", "the file is empty");
+  return parse_json(text, path.string());
 }
 
 }  // namespace scifi

@@ -203,7 +203,7 @@ class mice_geometry_builder {
 
     // CentralFibre is the central channel: the fibres, 2 (7 CentralFibre + 3.5), fill 2 CentralFibre + 1 channels of seven.
     const mice_property& central = m.at("CentralFibre");
-    constexpr double most_channels = 1.0e6;  // a typing error, not a detector
+    constexpr double most_channels = 1.0e4;  // a typing error, not a detector
     const double channels = 2.0 * central.number() + 1.0;
     if (channels != std::floor(channels) || channels < 1.0 || channels > most_channels)
       central.fail(in_quotes(central.words[0]) + " is not the middle of a whole number of channels");

@@ -161,6 +161,7 @@ class mice_module_parser {
   /// `word` with its $NAMEs replaced, the longest name that fits: text is replaced by text, and the experiment's files rely on $Coil in $Coil2.
   /// An unknown one stays as it is in text (a variable of the environment) and is a mistake elsewhere.
   [[nodiscard]] static std::string substituted(const mice_line_reader& lines, std::string_view word, const scope& here, bool text) {
+    constexpr std::size_t longest = 4096;
     std::string out;
     while (!word.empty()) {
       const std::string* value = nullptr;
@@ -171,6 +172,7 @@ class mice_module_parser {
       }
       if (value == nullptr && word[0] == '$' && !text) lines.fail("", in_quotes(word) + " has no Substitution");
       out += value != nullptr ? std::string_view(*value) : word.substr(0, 1);
+      if (out.size() > longest) lines.fail("", "its Substitutions make a word of more than " + std::to_string(longest) + " bytes");
       word.remove_prefix(taken);
     }
     return out;

@@ -118,4 +118,20 @@ class text_source {
   bool compressed_ = false, inflating_ = false, in_member_ = false;
 };
 
+/// The text of a file, unpacked if it is gzip. Throws input_error, also for more than `most` bytes: a small packed file may hold very much.
+[[nodiscard]] inline std::string text_of_file(const std::filesystem::path& path, std::size_t most = std::size_t{1} << 28) {
+  text_source source(path);
+  std::string text;
+  constexpr std::size_t block = std::size_t{1} << 16;
+  std::size_t n = 0;
+  do {
+    const std::size_t old = text.size();
+    if (old > most) throw input_error(source.name(), 0, "", "is longer than " + std::to_string(most) + " bytes");
+    text.resize(old + block);
+    n = source.read(text.data() + old, block);
+    text.resize(old + n);
+  } while (n > 0);
+  return text;
+}
+
 }  // namespace scifi

@@ -40,7 +40,13 @@ class combination_search {
  public:
   /// All three outlive the search; `work.arc_points` and `work.cluster_used` are filled by the caller.
   combination_search(const search_setting& setting, std::span<const space_point> space_points, search_buffers& memory)
-      : where_(setting), options_(setting.options), scattering_(setting.scattering), points_(space_points), work_(memory), budget_(setting.options.max_arc_fits) {}
+      : where_(setting),
+        options_(setting.options),
+        scattering_(setting.scattering),
+        points_(space_points),
+        work_(memory),
+        budget_(setting.options.max_arc_fits),
+        looks_(setting.options.max_looks) {}
 
   /// Fills `work.found` with the candidates through `size` stations, from points whose clusters are free, with tight or wide cuts.
   void operator()(int size, bool tight) {
@@ -51,8 +57,8 @@ class combination_search {
     choose_stations(0, size);
   }
 
-  /// False once the bound on the number of arc fits was reached.
-  [[nodiscard]] bool complete() const { return budget_ > 0; }
+  /// False once the bound on the number of arc fits or of looks was reached.
+  [[nodiscard]] bool complete() const { return budget_ > 0 && looks_ > 0; }
 
  private:
   void collect_free() {
@@ -141,9 +147,11 @@ class combination_search {
     const chord_hypotheses hypotheses(options_, scattering_, station(0), station(1), arc(list(0).front()).z, arc(list(1).front()).z, arc(list(2).front()).z, gate_);
     for (const int a : list(0)) {
       for (const int b : list(1)) {
+        if (--looks_ <= 0) return;
         if (too_steep(arc(a), arc(b))) continue;
         for (const int c : list(2)) {
-          if (budget_ <= 0) return;
+          --looks_;
+          if (!complete()) return;
           chosen_ = {a, b, c};
           if (too_steep(arc(b), arc(c)) || dim_points() > options_.max_dim_points) continue;
           if (!bent()) follow(pass(0.0, 0.0));
@@ -172,13 +180,15 @@ class combination_search {
     arc_fit ahead = fit;
     bool flown = false;
     for (const int next : list(level)) {
+      --looks_;
+      if (!complete()) return;
       if (!dim_allowed && dim(next)) continue;
       if (!flown || ahead.z() != arc(next).z) {  // the points of a station share z, doublets aside
         ahead = fit;
         ahead.fly(arc(next).z, scatter);
         flown = true;
       }
-      if (ahead.distance2(arc(next)) > gate_ || budget_ <= 0) continue;
+      if (ahead.distance2(arc(next)) > gate_) continue;
       chosen_.push_back(next);
       follow(refine(fit.curvature(), 2));
       chosen_.pop_back();
@@ -218,7 +228,8 @@ class combination_search {
   const station_scattering& scattering_;
   std::span<const space_point> points_;
   search_buffers& work_;
-  int budget_;
+  int budget_;  // arc fits left
+  long looks_;
   double gate_ = 0.0;
   double chi2_per_ndf_ = 0.0;
   inline_vector<int, max_stations> stations_;  // chosen, indices into where.stations

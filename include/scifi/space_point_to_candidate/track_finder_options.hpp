@@ -25,7 +25,8 @@ struct track_finder_options {
   double dim_light = 5.0;          ///< photo-electrons per cluster below which a space point may be noise: a particle leaves about 12, thermal noise 2 to 3
   int max_dim_points = 1;          ///< such points in a candidate
   int max_shared_clusters = 3;     ///< with better candidates: two tracks may cross the same channel
-  int max_arc_fits = 100000;       ///< bound on the search in one tracker
+  int max_arc_fits = 100000;       ///< bound on the search in one tracker ...
+  long max_looks = 20'000'000;     ///< ... and on the space points that it looks at, each time it does
 };
 
 /// Momentum (MeV/c) to be expected of a track with curvature w (rad/mm) and squared slope t2: bounded, so that an unbent track is not taken for

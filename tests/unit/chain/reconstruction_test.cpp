@@ -252,7 +252,10 @@ TEST_CASE("a track that left before it reached the first station is a candidate 
 
 TEST_CASE("every stage can be replaced", "[chain]") {
   struct one_cluster {
-    void operator()(const detector&, std::vector<digit>&, std::vector<cluster>& out) const { out.push_back({}); }
+    bool operator()(const detector&, std::vector<digit>&, std::vector<cluster>& out) const {
+      out.push_back({});
+      return false;
+    }
   };
   struct one_point {
     struct buffers {};
@@ -291,7 +294,8 @@ TEST_CASE("every stage can be replaced", "[chain]") {
   CHECK(e.clusters.size() == 1);
   CHECK(e.space_points.size() == 2);
   CHECK(e.tracks.size() == 2);
-  // The points of the second tracker were not complete, its fit failed.
+  // Digits were left out, the points of the second tracker were not complete, its fit failed.
+  CHECK(e.flags.digits_left_out);
   CHECK(e.flags.combinations_limited);
   CHECK(e.flags.fit_failed);
 }

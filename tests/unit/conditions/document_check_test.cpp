@@ -66,14 +66,3 @@ TEST_CASE("a check of one's own joins in", "[conditions]") {
   CHECK_THROWS_AS(check_document(checks, condition_kind::alignment, "bad", "a"), input_error);
   CHECK_FALSE(check_document(checks, condition_kind::cabling, "bad", "a"));
 }
-
-TEST_CASE("a document is read whole, unpacked if need be, unless it is far too long", "[conditions]") {
-  const temporary_folder folder;
-  const std::string text = std::string(200'000, 'x') + '\0' + "end";
-  CHECK(scifi::read_document(folder.file("plain", text)) == text);
-  CHECK(scifi::read_document(folder.file("packed", gzip(text))) == text);
-  CHECK(scifi::read_document(folder.file("empty", "")).empty());
-  CHECK(message_of<input_error>([&] { static_cast<void>(scifi::read_document(folder / "plain", 1000)); }) ==
-        (folder / "plain").string() + ": is longer than 1000 bytes");
-  CHECK_THROWS_AS(scifi::read_document(folder / "none"), input_error);
-}

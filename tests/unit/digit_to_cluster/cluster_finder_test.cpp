@@ -205,3 +205,34 @@ TEST_CASE("a digit whose light is no number is left out", "[digit_to_cluster]") 
   REQUIRE(out.size() == 1);
   CHECK(out[0].channel == 11.0);
 }
+
+TEST_CASE("digits that cannot be are left out, and it is said", "[digit_to_cluster]") {
+  using limits = std::numeric_limits<double>;
+  const digit good = at(50, 9.0, 1);
+  const std::vector<digit> absurd{at(20, limits::quiet_NaN()), at(20, limits::infinity()), at(20, limits::max()), at(214, 9.0), at(-1, 9.0),
+                                  at(20, 9.0, 3), at(20, 9.0, -1), at(20, 9.0, 0, 6), at(20, 9.0, 0, 1, 2),
+                                  at(std::numeric_limits<int>::max(), 9.0), at(std::numeric_limits<int>::min(), 9.0)};
+  for (const digit& d : absurd) {
+    std::vector<digit> digits{d, good};
+    std::vector<cluster> out;
+    CHECK_FALSE(cluster_finder{}(where, digits, out));
+    CHECK(channels(out) == std::vector<double>{50.0});
+  }
+  // Little light is no fault, wherever it is said to be.
+  std::vector<digit> dim{at(20, -limits::infinity()), at(20, -1.0), at(20, 0.0), good};
+  std::vector<cluster> out;
+  CHECK(cluster_finder{}(where, dim, out));
+  CHECK(channels(out) == std::vector<double>{50.0});
+}
+
+TEST_CASE("a channel has one digit: another one is left out, and a run ends at the last channel", "[digit_to_cluster]") {
+  std::vector<digit> twice{at(50, 9.0), at(50, 9.0), at(60, 5.0)};
+  std::vector<cluster> out;
+  CHECK_FALSE(cluster_finder{}(where, twice, out));
+  CHECK(channels(out) == std::vector<double>{50.0, 60.0});
+  // View V has channels 0 to 213.
+  std::vector<digit> beyond{at(213, 5.0), at(214, 5.0), at(215, 5.0)};
+  out.clear();
+  CHECK_FALSE(cluster_finder{}(where, beyond, out));
+  CHECK(channels(out) == std::vector<double>{213.0});
+}

@@ -36,4 +36,7 @@ TEST_CASE("a table out of order is refused with its line", "[io]") {
   CHECK(test::without(path.string(), message) == ":4: event: 2 comes after 3: the rows of an event must stand together and event numbers must grow");
   const auto negative = folder.file("b.csv", "event,x\n-1,1\n");
   CHECK(test::without(negative.string(), test::message_of<input_error>([&] { event_rows(negative, {"x"}); })) == ":2: event: event numbers must not be negative");
+  const auto largest = folder.file("c.csv", "event,x\n9223372036854775806,1\n9223372036854775807,1\n");
+  CHECK(test::without(largest.string(), test::message_of<input_error>([&] { event_rows(largest, {"x"}).read(9223372036854775806, [](const csv_reader&) {}); })) ==
+        ":3: event: 9223372036854775807 is too large for an event number");
 }

@@ -152,6 +152,11 @@ TEST_CASE("a wrong geometry is refused with file, field and reason", "[io]") {
          d["planes"][1]["z_fibres"] = {0.6, 1.2};
        },
        "f.json: planes[1]: the plane begins before the one below it ends"},
+      {[](json& d) {
+         d["planes"][0]["channels"] = d["planes"][1]["channels"] = 1000000;
+         for (int i = 5; i < 8; ++i) d["trackers"][0]["stations"].push_back({{"station", i}, {"position", {0, 0, 300 * i}}});
+       },
+       "f.json: trackers: have 12000000 channels, more than 10000000"},
       {[](json& d) { d["channel_width"] = 0; }, "f.json: channel_width: 0 is not above zero"},
       {[](json& d) { d.erase("fiducial_radius"); }, "f.json: fiducial_radius: is missing"},
       {[](json& d) { d["planes"][1]["z_measured"] = 1.0; }, "f.json: planes[1].z_reference: is missing"},

@@ -42,12 +42,20 @@ TEST_CASE("what is missing or of another kind is named with the way to it", "[io
       {[&] { (void)a.element(7); }, "f.json:4: a: has no element 7"},
       {[&] { (void)root.at("o").size(); }, "f.json:4: o: is not an array"},
       {[&] { (void)a.element(0).at("b").number(); }, "f.json:4: a[0].b: '\"x\"' is not a number"},
+      {[&] { (void)a.number(); }, "f.json:4: a: a list is not a number"},
+      {[&] { (void)root.number(); }, "f.json:4: an object is not a number"},
       {[&] { (void)a.element(1).text(); }, "f.json:4: a[1]: is not text"},
       {[&] { (void)a.element(1).whole_number(); }, "f.json:4: a[1]: 1.5 is not a whole number"},
       {[&] { (void)a.element(2).whole_number(0, 5); }, "f.json:4: a[2]: -3 is outside 0 .. 5"},
       {[&] { (void)a.element(2).positive(); }, "f.json:4: a[2]: -3 is not above zero"},
   };
   for (const row& r : table) CHECK(message_of<input_error>(r.action) == r.message);
+}
+
+TEST_CASE("a list nested deeper than the stack where a number belongs is refused", "[io]") {
+  constexpr std::size_t deep = 1'000'000;
+  const json document = scifi::parse_json("{\"a\": " + std::string(deep, '[') + std::string(deep, ']') + "}", "f.json");
+  CHECK(message_of<input_error>([&] { (void)json_field(document, "f.json").at("a").number(); }) == "f.json: a: a list is not a number");
 }
 
 TEST_CASE("a document that is not JSON is refused with the line of the mistake", "[io]") {

@@ -117,6 +117,15 @@ TEST_CASE("malformed modules are refused with file, line and reason", "[io]") {
   CHECK(message_of<input_error>([&] { (void)scifi::read_mice_modules(folder / "none.dat"); }).find("none.dat: cannot be opened") != std::string::npos);
 }
 
+TEST_CASE("a word does not grow beyond a line by its substitutions", "[io]") {
+  const temporary_folder folder;
+  std::string uses;
+  for (int i = 0; i < 100; ++i) uses += "$L";
+  const auto path = folder.file("a.dat", "Module A\n{\nSubstitution $L " + std::string(1000, '1') + "\nPropertyString P " + uses + "\n}\n");
+  CHECK(without(path.string(), message_of<input_error>([&] { (void)scifi::read_mice_modules(path); })) ==
+        ":4: its Substitutions make a word of more than 4096 bytes");
+}
+
 TEST_CASE("modules that refer to each other in a ring are refused where the ring closes", "[io]") {
   const temporary_folder folder;
   folder.file("b.dat", "Module B\n{\n Module c.dat\n {\n }\n}\n");

@@ -97,3 +97,14 @@ TEST_CASE("an empty file gives no bytes", "[io]") {
   CHECK(read_all(source, 10).empty());
   CHECK_FALSE(source.size().has_value());
 }
+
+TEST_CASE("a file is read whole, unpacked if need be, unless it is far too long", "[io]") {
+  const temporary_folder folder;
+  const std::string text = std::string(200'000, 'x') + '\0' + "end";
+  CHECK(scifi::text_of_file(folder.file("plain", text)) == text);
+  CHECK(scifi::text_of_file(folder.file("packed", gzip(text))) == text);
+  CHECK(scifi::text_of_file(folder.file("empty", "")).empty());
+  CHECK(message_of<input_error>([&] { static_cast<void>(scifi::text_of_file(folder / "plain", 1000)); }) ==
+        (folder / "plain").string() + ": is longer than 1000 bytes");
+  CHECK_THROWS_AS(scifi::text_of_file(folder / "none"), input_error);
+}

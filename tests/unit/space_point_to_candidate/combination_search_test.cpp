@@ -134,3 +134,16 @@ TEST_CASE("points of another tracker are not looked at, and a spent budget is sa
   search(5, false);
   CHECK_FALSE(search.complete());
 }
+
+TEST_CASE("looking has a bound of its own: points that are too dim for any arc fit", "[space_point_to_candidate]") {
+  bench b(2);
+  for (space_point& p : b.points) p.npe = 0.0;
+  b.setting.options.max_looks = 1000;
+  combination_search enough(b.setting, b.points, b.work);
+  enough(5, false);
+  CHECK(enough.complete());
+  b.setting.options.max_looks = 5;
+  combination_search poor(b.setting, b.points, b.work);
+  poor(5, false);
+  CHECK_FALSE(poor.complete());
+}
