@@ -54,7 +54,7 @@ TEST_CASE("what is missing or of another kind is named with the way to it", "[io
 
 TEST_CASE("a list nested deeper than the stack where a number belongs is refused", "[io]") {
   constexpr std::size_t deep = 1'000'000;
-  const json document = scifi::parse_json("{\"a\": " + std::string(deep, '[') + std::string(deep, ']') + "}", "f.json");
+  const nlohmann::json document = scifi::parse_json("{\"a\": " + std::string(deep, '[') + std::string(deep, ']') + "}", "f.json");
   CHECK(message_of<input_error>([&] { (void)json_field(document, "f.json").at("a").number(); }) == "f.json: a: a list is not a number");
 }
 
