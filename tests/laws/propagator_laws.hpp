@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MPL-2.0
 #pragma once
 
+#include <cmath>
+#include <limits>
+
 #include <scifi/kalman/propagation.hpp>
 
 // What any propagator must obey, as deviations that a test compares with a tolerance. `units` says what a change of 1 is in each component.
@@ -43,6 +46,41 @@ Scalar propagator_jacobian_deviation(const P& p, const scifi::vector<Scalar, N>&
     for (int i = 0; i < N; ++i) {
       const Scalar off = (difference(i) - moved.jacobian(i, j) * units(j)) / units(i);
       worst = off < worst ? (-off < worst ? worst : -off) : off;
+    }
+  }
+  return worst;
+}
+
+/// What `jacobian_against_differences` found.
+template <class Scalar>
+struct jacobian_check {
+  Scalar deviation_over_error;
+  Scalar error;
+};
+
+/// The Jacobian against central differences whose error is known from themselves: steps of h and h/2 times `units` differ by three times the
+/// error that the shorter one has left from the curvature, and `roundings` of the end state divided by the step come on top. Returns the largest
+/// deviation over that error (a right Jacobian stays below 1) and the largest error, in `units`, which a test should keep small.
+template <class P, class Scalar, int N, class Step>
+jacobian_check<Scalar> jacobian_against_differences(const P& p, const scifi::vector<Scalar, N>& x, const Step& step, Scalar h,
+                                                    const scifi::vector<Scalar, N>& units, Scalar roundings) {
+  const auto moved = scifi::kalman::propagate(p, x, step);
+  const auto central = [&](int j, Scalar by) -> scifi::vector<Scalar, N> {
+    scifi::vector<Scalar, N> up = x, down = x;
+    up(j) += by * units(j);
+    down(j) -= by * units(j);
+    return (scifi::kalman::propagate(p, up, step).state - scifi::kalman::propagate(p, down, step).state) / (up(j) - down(j));
+  };
+  jacobian_check<Scalar> worst{0, 0};
+  for (int j = 0; j < N; ++j) {
+    const scifi::vector<Scalar, N> wide = central(j, h), narrow = central(j, h / 2);
+    for (int i = 0; i < N; ++i) {
+      const Scalar rounding = roundings * std::numeric_limits<Scalar>::epsilon() * (std::abs(moved.state(i)) + units(i)) / (h * units(j));
+      const Scalar error = std::abs(wide(i) - narrow(i)) + rounding;
+      const Scalar deviation = std::abs(narrow(i) - moved.jacobian(i, j)) / error;
+      const Scalar in_units = error * units(j) / units(i);
+      if (!(deviation <= worst.deviation_over_error)) worst.deviation_over_error = deviation;
+      if (!(in_units <= worst.error)) worst.error = in_units;
     }
   }
   return worst;
