@@ -45,6 +45,15 @@ def fails(options, include, source, scratch):
         return True
 
 
+KNOWN = {}  # test -> whether it fails as it is
+
+
+def fails_as_it_is(options, source, scratch):
+    if source not in KNOWN:
+        KNOWN[source] = fails(options, ROOT / "include", source, scratch)
+    return KNOWN[source]
+
+
 def judge(options, mutation):
     header, before, after = mutation
     with tempfile.TemporaryDirectory() as folder:
@@ -58,7 +67,7 @@ def judge(options, mutation):
         for source in tests_of(header):
             if fails(options, include, source, scratch):
                 # A test that fails without the mutation too notices nothing.
-                if fails(options, ROOT / "include", source, scratch):
+                if fails_as_it_is(options, source, scratch):
                     return mutation, None, f"{source.name} fails as it is"
                 return mutation, True, source.name
     return mutation, False, "not noticed"
