@@ -128,6 +128,11 @@ class track_fitter {
     for (; done < work.in_lanes.size(); ++done) fit_one(jobs[work.in_lanes[done]], out[work.in_lanes[done]], work);
   }
 
+  [[nodiscard]] const track_fit_options& options() const { return options_; }
+  [[nodiscard]] const fit_path& path() const { return path_; }
+  [[nodiscard]] const helix_filter& helix() const { return helix_; }
+  [[nodiscard]] const line_filter& line() const { return line_; }
+
  private:
   /// A flight that chooses its steps would choose them for all lanes together, and a track would depend on its neighbours.
   static constexpr bool lanes_agree = std::same_as<Flight, helix_propagator>;

@@ -84,6 +84,8 @@ class reconstruction {
   }
 
   [[nodiscard]] const detector& where() const { return where_; }
+  /// The stages of each tracker, in the order of the detector's.
+  [[nodiscard]] const std::vector<stages>& trackers() const { return trackers_; }
 
  private:
   /// Fits what was found in one tracker in all events, and appends it to them.
