@@ -4,11 +4,9 @@
 #include <chrono>
 #include <cmath>
 #include <exception>
-#include <filesystem>
 #include <optional>
 #include <stdexcept>
 #include <string>
-#include <system_error>
 #include <utility>
 
 #include <fmt/format.h>
@@ -25,13 +23,12 @@
 
 #include "conditions/stored_conditions.hpp"
 #include "field/chosen_field.hpp"
+#include "reconstruct/command_line.hpp"
 #include "reconstruct/event_pipeline.hpp"
 #include "reconstruct/monitor.hpp"
 #include "run_program.hpp"
 
 namespace {
-
-namespace fs = std::filesystem;
 
 struct options {
   stored_conditions stored;
@@ -41,19 +38,6 @@ struct options {
   double min_npe = 2.0, momentum = 200.0;
   int threads = 0;
 };
-
-/// A particle by its name; a name without a sign means the positive one, for the beam of MICE is.
-scifi::particle hypothesis_named(const std::string& name) {
-  const auto found = scifi::particle_from_name(name);
-  if (!found) throw std::invalid_argument("--particle: '" + name + "' is not known; try mu, pi, e or p");
-  const bool without_sign = name == "mu" || name == "muon" || name == "pi" || name == "pion" || name == "e";
-  return without_sign && found->charge < 0 ? scifi::charge_conjugate(*found) : *found;
-}
-
-bool same_file(const fs::path& a, const fs::path& b) {
-  std::error_code none;
-  return fs::weakly_canonical(a, none) == fs::weakly_canonical(b, none) || fs::equivalent(a, b, none);
-}
 
 void check(const options& o) {
   const auto require = [](bool good, const char* what) {

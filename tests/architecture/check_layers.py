@@ -28,6 +28,7 @@ ALLOWED = {
     **{arrow: NOUNS for arrow in ARROWS},
     "chain": NOUNS | set(ARROWS),
     "information": NOUNS | {"candidate_to_track"},
+    "alignment": NOUNS | {"candidate_to_track"},
     "io": NOUNS | set(ARROWS) | {"chain"},
     "conditions": NOUNS | {"io"},
     "study": NOUNS | set(ARROWS) | {"chain", "information"},

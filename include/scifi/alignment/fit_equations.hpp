@@ -64,7 +64,7 @@ class fit_equations {
     const double k = work.helix.reference.front()[slope_state::q_over_pz];
     std::array<double, slope_state::dimension> local{};
     local[slope_state::q_over_pz] = 1.0;
-    out.add(std::copysign(prior_.typical, k) - k, prior_.spread, local, {});
+    out.add_wide_prior(std::copysign(prior_.typical, k) - k, prior_.spread, local);
     return why;
   }
 

@@ -17,7 +17,7 @@ namespace scifi::alignment {
 struct reduced_track {
   failure status = failure::none;
   double chi2 = 0.0;  ///< of the track's fit, with the global parameters as they are
-  int ndf = 0;        ///< m - p
+  int ndf = 0;        ///< m - p, less the wide priors among the m
   std::vector<int> parameters;  ///< global parameters it depends on, in growing order: the columns below
   Eigen::MatrixXd rows;         ///< (m - p) x parameters
   Eigen::VectorXd residuals;    ///< m - p
@@ -65,7 +65,7 @@ class local_elimination {
     out.rows = rest_.bottomLeftCorner(m - p, g);
     out.residuals = rest_.bottomRightCorner(m - p, 1);
     out.chi2 = out.residuals.squaredNorm();
-    out.ndf = static_cast<int>(m - p);
+    out.ndf = static_cast<int>(m - p) - track.wide_priors();
   }
 
  private:
@@ -74,7 +74,7 @@ class local_elimination {
     out.parameters.clear();
     out.chi2 = 0.0;
     out.ndf = 0;
-    if (track.size() <= static_cast<std::size_t>(track.local_parameters())) return failure::too_few_measurements;
+    if (track.size() <= static_cast<std::size_t>(track.local_parameters() + track.wide_priors())) return failure::too_few_measurements;
     for (std::size_t i = 0; i < track.size(); ++i)
       if (!(track[i].sigma > 0.0)) return std::isnan(track[i].sigma) ? failure::not_finite : failure::no_error;
     for (const coefficient& c : track.global()) {

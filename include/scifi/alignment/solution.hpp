@@ -29,6 +29,7 @@ struct mode {
   /// Share of the information on it that is left after tracks and other parameters had to be found too: 1 known as well as if nothing else were
   /// unknown, 0 not at all. Its error is 1/sqrt(share) times what it would be alone.
   double share = 0.0;
+  Eigen::VectorXd weights;    ///< how much of it each parameter is: squares add up to one
   Eigen::VectorXd direction;  ///< one standard deviation of it, if it were alone, in the units of the parameters
 };
 
@@ -113,7 +114,7 @@ struct solution {
     const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> spectrum(inside);
     const Eigen::MatrixXd directions = along * spectrum.eigenvectors();
     for (Eigen::Index i = 0; i < free; ++i) {
-      out.modes.push_back({std::max(spectrum.eigenvalues()[i], 0.0), unit.cwiseProduct(directions.col(i))});
+      out.modes.push_back({std::max(spectrum.eigenvalues()[i], 0.0), directions.col(i), unit.cwiseProduct(directions.col(i))});
       if (!(spectrum.eigenvalues()[i] > smallest_share)) ++out.undetermined;
     }
     if (out.undetermined > 0) {

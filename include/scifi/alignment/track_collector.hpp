@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MPL-2.0
 #pragma once
 
+#include <cmath>
+#include <cstddef>
 #include <utility>
 
 #include <scifi/alignment/chi2_scale.hpp>
@@ -17,6 +19,9 @@ namespace scifi::alignment {
 struct track_cuts {
   int min_planes = 12;          ///< measurements used in the fit
   double min_p_value = 0.001;   ///< of chi2 / chi2_scale: takes out hard scatters and wrong clusters
+  /// Largest relative error of q/pz of a helix. Where the field hardly bends a track its scattering is known as badly as its momentum, and a linear
+  /// treatment states too small errors.
+  double max_curvature_error = 0.05;
   double chi2_scale = 0.0;      ///< by how much all chi2 are expected to be too large; 0: not known yet, no cut on the probability
 };
 
@@ -26,6 +31,7 @@ struct tracker_sum {
   normal_equations equations;
   alignment::chi2_scale scale;
   long incomplete = 0;  ///< tracks with too few planes
+  long unbent = 0;      ///< helices whose q/pz is too badly known
   long improbable = 0;  ///< taken out by their chi2
   long failed = 0;      ///< could not be linearised
 
@@ -33,6 +39,7 @@ struct tracker_sum {
     equations += more.equations;
     scale += more.scale;
     incomplete += more.incomplete;
+    unbent += more.unbent;
     improbable += more.improbable;
     failed += more.failed;
     return *this;
@@ -63,6 +70,10 @@ class track_collector {
         ++sum.incomplete;
         continue;
       }
+      if (curvature_error(e, t) > cuts_.max_curvature_error) {
+        ++sum.unbent;
+        continue;
+      }
       failure why = equations_(parameters_, e, t, work.track, work.fit);
       if (why == failure::none) {
         work.eliminate(work.track, parameters_.size(), work.reduced);
@@ -79,6 +90,13 @@ class track_collector {
   }
 
  private:
+  /// Relative, at the station farthest from the reference surface; zero for a straight track.
+  [[nodiscard]] static double curvature_error(const event& e, const track& t) {
+    if (t.shape == track_shape::line || t.points == 0) return 0.0;
+    const auto& at = e.track_points[static_cast<std::size_t>(t.first_point + t.points - 1)].smoothed;
+    return kalman::sigma(at, slope_state::q_over_pz) / std::abs(at.mean[slope_state::q_over_pz]);
+  }
+
   tracker_parameters parameters_;
   fit_equations<Fitter> equations_;
   track_cuts cuts_;

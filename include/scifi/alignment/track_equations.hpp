@@ -30,6 +30,7 @@ class track_equations {
   /// Forgets the measurements; the next track has this number of parameters of its own.
   void clear(int local_parameters) {
     locals_ = static_cast<std::size_t>(local_parameters);
+    priors_ = 0;
     rows_.clear();
     local_.clear();
     global_.clear();
@@ -42,7 +43,14 @@ class track_equations {
     global_.insert(global_.end(), global.begin(), global.end());
   }
 
+  /// What is believed of the track before it is measured, far wider than what the measurements say: takes part, but is no degree of freedom.
+  void add_wide_prior(double residual, double sigma, std::span<const double> local) {
+    add(residual, sigma, local, {});
+    ++priors_;
+  }
+
   [[nodiscard]] std::size_t size() const { return rows_.size(); }
+  [[nodiscard]] int wide_priors() const { return priors_; }
   [[nodiscard]] int local_parameters() const { return static_cast<int>(locals_); }
   [[nodiscard]] row operator[](std::size_t i) const {
     const stored& r = rows_[i];
@@ -57,6 +65,7 @@ class track_equations {
     std::size_t first, count;  // of its global derivatives
   };
   std::size_t locals_ = 0;
+  int priors_ = 0;
   std::vector<stored> rows_;
   std::vector<double> local_;
   std::vector<coefficient> global_;
