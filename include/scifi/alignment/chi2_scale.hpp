@@ -19,7 +19,7 @@ class chi2_scale {
     const double cube_root = 1.0 - 2.0 / (9.0 * ndf);
     const double ratio = chi2 / (ndf * cube_root * cube_root * cube_root);
     const double place = (std::log(std::max(ratio, smallest)) - std::log(smallest)) / width;
-    ++counts_[std::min(static_cast<std::size_t>(place), bins - 1)];
+    ++counts_[static_cast<std::size_t>(std::min(place, static_cast<double>(bins - 1)))];
     ++total_;
   }
   chi2_scale& operator+=(const chi2_scale& more) {

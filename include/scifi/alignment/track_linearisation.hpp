@@ -49,8 +49,8 @@ class track_linearisation {
   /// Appends the equations of a track to `out`, which was cleared for N parameters. `reference` are the states at the sites (those of a smoother: the track
   /// with its kinks), steps[i] leads from site i - 1 to site i (steps[0] is not used); measurements in the order of their sites.
   template <class Steps>
-  [[nodiscard]] failure operator()(std::span<const vector<double, N>> reference, const Steps& steps, std::span<const stop_measurement<N>> measurements, track_equations& out,
-                                   buffers& work) const {
+  [[nodiscard]] failure operator()(std::span<const vector<double, N>> reference, const Steps& steps, std::span<const stop_measurement<N>> measurements,
+                                   track_equations& out, buffers& work) const {
     const auto m = static_cast<Eigen::Index>(measurements.size());
     find_columns(measurements, work.columns);
     const auto g = static_cast<Eigen::Index>(work.columns.size());
