@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <map>
 #include <optional>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <system_error>
@@ -105,10 +106,10 @@ std::vector<alignment::tracker_sum> pass(const options& o, const scifi::detector
   const auto work = [&](block& b) {
     memory& m = memories.local();
     b.sums = empty;
-    for (std::size_t i = 0; i < b.used; ++i) {
-      reconstruct(b.events[i], m.reconstruction);
-      for (std::size_t k = 0; k < collect.size(); ++k) collect[k](b.events[i], b.sums[k], m.collection);
-    }
+    const std::span events(b.events.data(), b.used);
+    reconstruct(events, m.reconstruction);
+    for (const scifi::event& e : events)
+      for (std::size_t k = 0; k < collect.size(); ++k) collect[k](e, b.sums[k], m.collection);
   };
   const auto add = [&](const block& b, std::uintmax_t bytes_read) {
     for (std::size_t k = 0; k < sums.size(); ++k) sums[k] += b.sums[k];

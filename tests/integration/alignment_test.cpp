@@ -102,7 +102,8 @@ void check_over_seeds(const sample& s, int seeds) {
       if (p.station == 1 || p.station == 5) continue;
       const auto at = static_cast<std::size_t>(p.station - 1);
       const placement &truth = real.stations[at].in_tracker, &now = found.where().stations[at].in_tracker;
-      const double difference = p.how == alignment::motion::rotation ? now.angle - truth.angle : p.how == alignment::motion::x ? now.origin.x() - truth.origin.x() : now.origin.y() - truth.origin.y();
+      const vector<double, 3> shift = now.origin - truth.origin;
+      const double difference = p.how == alignment::motion::rotation ? now.angle - truth.angle : p.how == alignment::motion::x ? shift.x() : shift.y();
       error[static_cast<Eigen::Index>(inner.size())] = difference;
       inner.push_back(i);
       beyond_3 += std::abs(difference) > 3.0 * found.last().sigma(i);
@@ -129,7 +130,7 @@ TEST_CASE("displaced stations are found with straight muons, with the errors sta
   s.beam.pz_max = 210.0;
   s.beam.pt_max = 12.0;
   s.beam.radius = 80.0;
-  check_over_seeds(s, 24);
+  check_over_seeds(s, 48);
 }
 
 TEST_CASE("displaced stations are found with helices, with the errors stated", "[integration]") {
@@ -137,5 +138,5 @@ TEST_CASE("displaced stations are found with helices, with the errors stated", "
   s.tracker = mice::upstream;
   s.field = 3.0 * units::tesla;
   s.events = 350;
-  check_over_seeds(s, 12);
+  check_over_seeds(s, 24);
 }

@@ -26,8 +26,8 @@ struct constraint {
 
 /// A combination of parameters that the tracks see independently of the others.
 struct mode {
-  /// Share of the information on it that is left after tracks and other parameters had to be found too: 1 known as well as if nothing else were
-  /// unknown, 0 not at all. Its error is 1/sqrt(share) times what it would be alone.
+  /// Information on it once tracks and all other parameters have to be found too, over that on its parameters were each alone unknown: its error is
+  /// 1/sqrt(share) times the one it would have then. 0: not known at all; above 1: tracks compare its parameters directly.
   double share = 0.0;
   Eigen::VectorXd weights;    ///< how much of it each parameter is: squares add up to one
   Eigen::VectorXd direction;  ///< one standard deviation of it, if it were alone, in the units of the parameters

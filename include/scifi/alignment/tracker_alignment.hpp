@@ -35,7 +35,9 @@ class tracker_alignment {
 
   /// Moves the geometry by what a pass says. Where that fails, `last().status` says why and nothing moves.
   void step(const tracker_sum& sum) {
-    last_ = solve(sum.equations, frame_constraints(start_, keep_));
+    // Derivatives taken at tracks that scattered tell a rotation of everything from none, by the square of scattering over distance: some 1e-4.
+    constexpr double smallest_share = 1.0e-3;
+    last_ = solve(sum.equations, frame_constraints(start_, keep_), smallest_share);
     if (last_.status != failure::none) return;
     ++steps_;
     largest_change_ = 0.0;
