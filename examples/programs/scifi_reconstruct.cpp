@@ -18,11 +18,11 @@
 #include <scifi/chain/reconstruction.hpp>
 #include <scifi/geometry/mice.hpp>
 #include <scifi/io/any_geometry.hpp>
-#include <scifi/track_model/nystrom_propagator.hpp>
 #include <scifi/version.hpp>
 
 #include "conditions/stored_conditions.hpp"
 #include "field/chosen_field.hpp"
+#include "field/chosen_flight.hpp"
 #include "reconstruct/command_line.hpp"
 #include "reconstruct/event_pipeline.hpp"
 #include "reconstruct/monitor.hpp"
@@ -135,18 +135,9 @@ void run(options& o) {
     choice.fibre = geometry->fibre;
   }
   o.field.resolve(detector, geometry ? &*geometry : nullptr);
-  if (o.field.mapped())
-    write_tracks(o, detector, hypothesis, start, scifi::make_reconstruction(detector, choice, [&o](const scifi::tracker& t) {
-                   // A thousandth of the resolution of a plane is lost at most.
-                   constexpr scifi::nystrom_options steps{1e-2};
-                   const tracker_field& f = o.field.in(t);
-                   return scifi::tracker_flight<scifi::nystrom_propagator<scifi::field_map>>{{*f.map, steps}, f.mean};
-                 }));
-  else
-    write_tracks(o, detector, hypothesis, start, scifi::make_reconstruction(detector, choice, [&o](const scifi::tracker& t) {
-                   const double field = o.field.in(t).mean;
-                   return scifi::tracker_flight<scifi::helix_propagator>{{field}, field};
-                 }));
+  with_flight(o.field, [&](const auto& flight_in) {
+    write_tracks(o, detector, hypothesis, start, scifi::make_reconstruction(detector, choice, flight_in));
+  });
 }
 
 }  // namespace
