@@ -174,6 +174,22 @@ class Align(unittest.TestCase):
         good("scifi-simulate", "--geometry", "real.json", "--events", 1500, "--seed", 12, "--output", "bent", "--field", 3, "--pt", 0, 60, cwd=self.folder)
         good("scifi-align", "bent_digits.csv", "--geometry", "nominal.json", "--field", 3, "--output", "bent.json", "--parameters", "bent_alignment.json", cwd=self.folder)
         self.check_parameters(json.loads((self.folder / "bent_alignment.json").read_text(encoding="utf-8")))
+        if not os.access(BIN / "scifi-study", os.X_OK):
+            return
+        # Against the truth, beside each other: the momentum is better, chi2 and p-values are what they should be.
+        study = None
+        for when, geometry in (("before", "nominal.json"), ("after", "bent.json")):
+            good("scifi-reconstruct", "bent_digits.csv", "--geometry", geometry, "--field", 3, "--output", f"{when}.csv", cwd=self.folder)
+            against = ["--before", "before/study.json"] if when == "after" else []
+            good("scifi-study", "bent_truth.csv", f"{when}.csv", "--geometry", geometry, "--field", 3, "--no-page", "-o", when, *against, cwd=self.folder)
+            study = json.loads((self.folder / when / "study.json").read_text(encoding="utf-8"))
+        before, after = study["before"]["all"], study["all"]
+        self.assertGreater(before["chi2_per_ndf"]["mean"], 1.3)
+        self.assertAlmostEqual(after["chi2_per_ndf"]["mean"], 1.0, delta=0.05)
+        self.assertGreater(before["p_value"]["kolmogorov_smirnov_distance"], 0.25)
+        self.assertLess(after["p_value"]["kolmogorov_smirnov_distance"], 0.08)
+        self.assertLess(after["residuals"]["pz"]["spread"], 0.95 * before["residuals"]["pz"]["spread"])
+        self.assertGreaterEqual(after["efficiency"]["found"], 0.995 * before["efficiency"]["found"])
 
     def expect_refused(self, result, message, status=2):
         self.assertEqual(result.returncode, status, result.stderr)
