@@ -133,7 +133,11 @@ json to_json(const options& o, const whole_study& s, const json& before) {
   }
   if (!all) throw std::invalid_argument("no tracker of the geometry has a particle or a track");
   out["all"] = with_digits(to_json(all->tracks, s.events), *all);
-  if (!before.is_null()) out["before"] = {{"input", before.at("input")}, {"all", before.at("all")}};
+  if (!before.is_null()) {
+    out["before"] = {{"input", before.value("input", json())}, {"all", before.at("all")}, {"trackers", json::array()}};
+    for (const json& t : before.at("trackers"))
+      if (t.contains("planes")) out["before"]["trackers"].push_back({{"tracker", t.at("tracker")}, {"planes", t.at("planes")}});
+  }
   out["comparison"] = scifi::study_program::comparison(out["all"], before.is_null() ? json() : before.at("all"));
   out["displays"] = s.shown;
   return out;

@@ -361,7 +361,7 @@ class Study(unittest.TestCase):
         drawn = {p.stem for p in (self.data / "page").glob("*.png")}
         self.assertEqual(drawn, {p.stem for p in (self.data / "page").glob("*.svg")})
         self.assertEqual(len(drawn), len(images))
-        for name in ("efficiency", "efficiency_map", "residuals", "pulls", "goodness_of_fit", "momentum_resolution", "momentum_shift", "plane_pulls", "occupancy", "channel_sums", "event_1"):
+        for name in ("efficiency", "efficiency_map", "residuals", "pulls", "goodness_of_fit", "momentum_resolution", "momentum_shift", "plane_residuals", "plane_pulls", "occupancy", "channel_sums", "event_1"):
             self.assertIn(name, drawn)
         for heading in ("published", "bound", "before", "measured"):
             self.assertIn(f"<th>{heading}</th>", bare)
@@ -370,6 +370,7 @@ class Study(unittest.TestCase):
         self.assertEqual((rows_of["spread of pt"]["published"], rows_of["spread of pz"]["published"]), (0.9, 4.0))
         for r in result["comparison"]:
             self.assertEqual(r["before"], r["measured"], r["what"])  # the study beside itself
+        self.assertEqual(result["before"]["trackers"], [{"tracker": t["tracker"], "planes": t["planes"]} for t in result["trackers"]])
 
     def test_without_a_python_that_draws_the_numbers_are_there_and_the_status_says_so(self):
         done = self.run_here("muons_truth.csv", "tracks.csv", "--python", "no_such_python", "-o", "undrawn")

@@ -67,5 +67,10 @@ MUTATIONS = [
     ("hit_to_digit/noise.hpp", "channel += 1.0 + std::floor", "channel += std::floor"),
     ("event/adc_line.hpp", "return (counts - pedestal) / gain;", "return counts / gain;"),
     ("hit_to_digit/adc.hpp", "static_cast<double>(largest_count));", "1.0e9);"),
+    # alignment: a sign of a kink, a lever arm, a value of a constraint, a share of a sum
+    ("alignment/track_linearisation.hpp", "at.residual + at.projection", "at.residual - at.projection"),
+    ("alignment/tracker_parameters.hpp", "(y - o.y()) - at.sin_angle", "(y - o.y()) + at.sin_angle"),
+    ("alignment/solution.hpp", "gradient - scaled * fixed;", "gradient;"),
+    ("alignment/chi2_scale.hpp", "total_ += more.total_;", "total_ = more.total_;"),
     ("particle_to_hit/fibre_crossing.hpp", "return fibre / doublet.fibres_per_channel;", "return fibre / doublet.fibres_per_channel + 1;"),
 ]

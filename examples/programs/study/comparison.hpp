@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MPL-2.0
 #pragma once
 
+#include <cmath>
+#include <cstddef>
 #include <filesystem>
 #include <string>
 #include <utility>
@@ -24,6 +26,8 @@ inline constexpr int format_version = 1;
   if (root.at("format").text() != format_name) root.at("format").fail("is not '" + std::string(format_name) + "'");
   if (root.at("version").number() != format_version) root.at("version").fail("is not " + std::to_string(format_version));
   if (!root.at("all").at("residuals").has("x")) root.at("all").at("residuals").fail("has no x: this study has no tracks");
+  const json_field trackers = root.at("trackers");
+  for (std::size_t i = 0; i < trackers.size(); ++i) (void)trackers.element(i).at("tracker").whole_number();
   return json(document);
 }
 
@@ -40,7 +44,7 @@ inline constexpr int format_version = 1;
   json rows = json::array();
   const auto add = [&](const std::string& what, const json& unit, const json& published, const json& bound, const std::string& pointer) {
     const json now = number_at(all, pointer);
-    if (now.is_null()) return;
+    if (now.is_null() || (now.is_number_float() && !std::isfinite(now.get<double>()))) return;  // straight tracks have no charge
     rows.push_back({{"what", what}, {"unit", unit}, {"published", published}, {"bound", bound}, {"before", before.is_null() ? json() : number_at(before, pointer)}, {"measured", now}});
   };
   constexpr double published_pt = 0.9;  // MeV/c

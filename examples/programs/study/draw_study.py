@@ -86,6 +86,7 @@ class Study:
         self.document = document
         self.trackers = document["trackers"]
         self.before = document.get("before", {}).get("all")
+        self.planes_before = {t["tracker"]: t["planes"] for t in document.get("before", {}).get("trackers", [])}
 
     def styled(self):
         """(tracker, colour, marker, line style, name)"""
@@ -203,8 +204,9 @@ def draw_pulls(study, page):
     t = np.linspace(-5, 5, 201)
     highest = 0.4
     for axis, name in zip(axes[0], names):
-        for tracker, colour, _, style, _ in study.styled():
-            r = tracker["pulls"].get(name)
+        shown = [(tracker, colour, style, "") for tracker, colour, _, style, _ in study.styled()] + ([(study.before, GREY, "-", "before: ")] if study.before else [])
+        for block, colour, style, whose in shown:
+            r = block["pulls"].get(name)
             if r is None:
                 continue
             width = (r["histogram"]["high"] - r["histogram"]["low"]) / len(r["histogram"]["counts"])
@@ -212,12 +214,12 @@ def draw_pulls(study, page):
             density = counts / max(1, r["n"]) / (2 * width)
             highest = max(highest, density.max())
             axis.stairs(density, np.linspace(r["histogram"]["low"], r["histogram"]["high"], len(density) + 1), color=colour, linestyle=style, linewidth=1.2,
-                        label=f"{r['median']:+.2f}, {r['spread']:.3f}")
+                        label=f"{whose}{r['median']:+.2f}, {r['spread']:.3f}")
         axis.plot(t, np.exp(-0.5 * t * t) / math.sqrt(2 * math.pi), color=BLACK, linewidth=0.9, linestyle=":")
         axis.set_xlabel(f"pull of {SYMBOL[name]}")
         axis.set_xticks([-4, -2, 0, 2, 4])
         axis.legend(loc="upper center", title="median, spread", title_fontsize=8, handlelength=1.4)
-    axes[0][0].set_ylim(0, 1.55 * highest)
+    axes[0][0].set_ylim(0, (1.7 if study.before else 1.55) * highest)
     axes[0][0].set_ylabel("tracks per unit")
     page.keep(figure, "pulls", "Pulls at the reference surface",
               "Residual over the standard deviation that the fit states. Dotted: the normal distribution. " + tracker_key(study))
@@ -230,15 +232,16 @@ def tracker_key(study):
 
 def draw_goodness(study, page):
     figure, axes = plt.subplots(1, 2, figsize=(PAGE_WIDTH, 3.2))
-    for tracker, colour, _, style, label in study.styled():
-        c, p = tracker["chi2_per_ndf"], tracker["p_value"]
+    shown = [(tracker, colour, style, label) for tracker, colour, _, style, label in study.styled()] + ([(study.before, GREY, "-", "before")] if study.before else [])
+    for block, colour, style, label in shown:
+        c, p = block["chi2_per_ndf"], block["p_value"]
         if not c["n"]:
             continue
-        steps(axes[0], c["histogram"], color=colour, linestyle=style, label=f"{label}: mean {c['mean']:.3f}, median {c['median']:.3f}")
-        steps(axes[1], p["histogram"], color=colour, linestyle=style, label=f"{label}: distance from flat {p['kolmogorov_smirnov_distance']:.3f}")
-        axes[1].axhline(p["n"] / len(p["histogram"]["counts"]), color=colour, linewidth=0.9, linestyle=":")
+        steps(axes[0], c["histogram"], 1.0 / c["n"], color=colour, linestyle=style, label=f"{label}: mean {c['mean']:.3f}, median {c['median']:.3f}")
+        steps(axes[1], p["histogram"], 1.0 / p["n"], color=colour, linestyle=style, label=f"{label}: distance from flat {p['kolmogorov_smirnov_distance']:.3f}")
+        axes[1].axhline(1.0 / len(p["histogram"]["counts"]), color=BLACK, linewidth=0.9, linestyle=":")
     axes[0].set_xlabel(r"$\chi^2$ / degrees of freedom")
-    axes[0].set_ylabel("tracks")
+    axes[0].set_ylabel("share of the tracks per bin")
     axes[1].set_xlabel("p-value")
     for axis in axes:
         axis.set_ylim(0, 1.25 * axis.get_ylim()[1])
@@ -365,34 +368,57 @@ def draw_shift(study, page):
               f"than {rule['shift_more_tracks_than']} tracks. The standard error of the median alone is 125 %/√n of the spread, 9 % with 200 tracks.")
 
 
-def draw_planes(study, page):
-    series = [("x", BLUE, "o"), ("tx", SKY, "v"), ("y", VERMILLION, "s"), ("ty", ORANGE, "^"), ("q_over_pz", GREEN, "D")]
-    count = len(study.trackers)
-    figure, axes = plt.subplots(2, count, figsize=(PAGE_WIDTH, 4.8), squeeze=False, sharex="col", sharey="row")
-    for k, (tracker, *_, label) in enumerate(study.styled()):
-        planes = tracker["planes"]
-        at = np.arange(len(planes))
-        for j, (key, error) in enumerate((("median", "median_error"), ("spread", "spread_error"))):
-            axis = axes[j][k]
-            axis.axhline(float(j), color=BLACK, linewidth=0.9)
-            for n, (name, colour, marker) in enumerate(series + [("measurement", PURPLE, "x")]):
-                cells = [p["measurement_pull"] if name == "measurement" else p["pulls"].get(name) for p in planes]
-                if any(c is None or not c["n"] for c in cells):
+def along_planes(study, names, series):
+    """A column for each tracker, medians above spreads, named so; series of (label, colour, marker, numbers of a plane, only of the study before)."""
+    figure, axes = plt.subplots(2, len(study.trackers), figsize=(PAGE_WIDTH, 4.8), squeeze=False, sharex="col", sharey="row")
+    for column, (tracker, *_, title) in zip(axes.T, study.styled()):
+        at = np.arange(len(tracker["planes"]))
+        for axis, key, error in zip(column, ("median", "spread"), ("median_error", "spread_error")):
+            for n, (label, colour, marker, numbers_of, is_before) in enumerate(series):
+                planes = study.planes_before.get(tracker["tracker"], []) if is_before else tracker["planes"]
+                cells = [numbers_of(p) for p in planes]
+                if len(cells) != len(at) or any(c is None or not c["n"] for c in cells):
                     continue
-                axis.errorbar(at + 0.12 * (n - 2.5), numbers(c[key] for c in cells), yerr=numbers(c[error] for c in cells), fmt=marker, color=colour, markersize=3.5, linewidth=0.9,
-                              label="measurement" if name == "measurement" else SYMBOL[name])
-            for i, p in enumerate(planes):
-                if i and p["station"] != planes[i - 1]["station"]:
-                    axis.axvline(i - 0.5, color="#AAAAAA", linewidth=0.7)
+                axis.errorbar(at + 0.12 * (n - 0.5 * (len(series) - 1)), numbers(c[key] for c in cells), yerr=numbers(c[error] for c in cells), fmt=marker, color=colour,
+                              markersize=3.5, linewidth=0.9, label=label)
+            for i, (p, q) in enumerate(zip(tracker["planes"], tracker["planes"][1:])):
+                if p["station"] != q["station"]:
+                    axis.axvline(i + 0.5, color="#AAAAAA", linewidth=0.7)
             axis.grid(False, axis="x")
-        axes[1][k].set_xticks(at, [f"{p['station']}.{p['plane']}" for p in planes])
-        axes[1][k].set_xlabel("station.plane, z grows to the right")
-        axes[0][k].set_title(label)
-    axes[0][0].set_ylabel("median of the pull")
-    axes[1][0].set_ylabel("spread of the pull")
-    axes[0][0].set_ylim(*np.clip(axes[0][0].get_ylim(), -0.6, 0.6))
+        column[1].set_xticks(at, [f"{p['station']}.{p['plane']}" for p in tracker["planes"]])
+        column[1].set_xlabel("station.plane, z grows to the right")
+        column[0].set_title(title)
+    for axis, name in zip(axes[:, 0], names):
+        axis.set_ylabel(name)
     handles, labels = axes[0][0].get_legend_handles_labels()
     legend_below(figure, handles, labels)
+    return figure, axes
+
+
+def draw_plane_residuals(study, page):
+    series = [("measured", PURPLE, "x", lambda p: p["measurement_residual_mm"], False)]
+    if study.planes_before:
+        series.insert(0, ("before", GREY, "o", series[0][3], True))
+    figure, axes = along_planes(study, ("median of the residual [mm]", "its spread [mm]"), series)
+    for axis in axes[0]:
+        axis.axhline(0.0, color=BLACK, linewidth=0.9)
+    page.keep(figure, "plane_residuals", "Residuals at every plane",
+              "Median and spread of measured minus fitted, along what the plane measures, where the fit has gone without this measurement. Medians other than zero are planes "
+              "that are not where they are believed to be.")
+
+
+def draw_plane_pulls(study, page):
+    shown = [("x", BLUE, "o"), ("tx", SKY, "v"), ("y", VERMILLION, "s"), ("ty", ORANGE, "^"), ("q_over_pz", GREEN, "D")]
+    series = [(SYMBOL[name], colour, marker, lambda p, name=name: p["pulls"].get(name), False) for name, colour, marker in shown]
+    series.append(("measurement", PURPLE, "x", lambda p: p["measurement_pull"], False))
+    if study.planes_before:
+        series.append(("measurement, before", GREY, "x", lambda p: p["measurement_pull"], True))
+    figure, axes = along_planes(study, ("median of the pull", "spread of the pull"), series)
+    for row, ideal in zip(axes, (0.0, 1.0)):
+        for axis in row:
+            axis.axhline(ideal, color=BLACK, linewidth=0.9)
+    furthest = 2.0 if study.planes_before else 0.6
+    axes[0][0].set_ylim(*np.clip(axes[0][0].get_ylim(), -furthest, furthest))
     page.keep(figure, "plane_pulls", "Pulls at every plane",
               "Median and spread of the pulls of the smoothed state against the truth, moved to the middle of each plane, and of the measurement against the fit without it. A measurement "
               "within a channel is uniform, not normal, and the spread of its pull is larger than one.")
@@ -596,7 +622,8 @@ def main():
         draw_resolution(study, page)
         draw_shift(study, page)
     if "planes" in study.trackers[0]:
-        draw_planes(study, page)
+        draw_plane_residuals(study, page)
+        draw_plane_pulls(study, page)
     if "digits" in study.trackers[0]:
         draw_occupancy(study, page)
     for i, display in enumerate(study.document["displays"], 1):
