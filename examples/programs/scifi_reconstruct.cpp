@@ -4,9 +4,11 @@
 #include <chrono>
 #include <cmath>
 #include <exception>
+#include <filesystem>
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <system_error>
 #include <utility>
 
 #include <fmt/format.h>
@@ -18,17 +20,18 @@
 #include <scifi/chain/reconstruction.hpp>
 #include <scifi/geometry/mice.hpp>
 #include <scifi/io/any_geometry.hpp>
+#include <scifi/track_model/nystrom_propagator.hpp>
 #include <scifi/version.hpp>
 
 #include "conditions/stored_conditions.hpp"
 #include "field/chosen_field.hpp"
-#include "field/chosen_flight.hpp"
-#include "reconstruct/command_line.hpp"
 #include "reconstruct/event_pipeline.hpp"
 #include "reconstruct/monitor.hpp"
 #include "run_program.hpp"
 
 namespace {
+
+namespace fs = std::filesystem;
 
 struct options {
   stored_conditions stored;
@@ -38,6 +41,19 @@ struct options {
   double min_npe = 2.0, momentum = 200.0;
   int threads = 0;
 };
+
+/// A particle by its name; a name without a sign means the positive one, for the beam of MICE is.
+scifi::particle hypothesis_named(const std::string& name) {
+  const auto found = scifi::particle_from_name(name);
+  if (!found) throw std::invalid_argument("--particle: '" + name + "' is not known; try mu, pi, e or p");
+  const bool without_sign = name == "mu" || name == "muon" || name == "pi" || name == "pion" || name == "e";
+  return without_sign && found->charge < 0 ? scifi::charge_conjugate(*found) : *found;
+}
+
+bool same_file(const fs::path& a, const fs::path& b) {
+  std::error_code none;
+  return fs::weakly_canonical(a, none) == fs::weakly_canonical(b, none) || fs::equivalent(a, b, none);
+}
 
 void check(const options& o) {
   const auto require = [](bool good, const char* what) {
@@ -135,9 +151,18 @@ void run(options& o) {
     choice.fibre = geometry->fibre;
   }
   o.field.resolve(detector, geometry ? &*geometry : nullptr);
-  with_flight(o.field, [&](const auto& flight_in) {
-    write_tracks(o, detector, hypothesis, start, scifi::make_reconstruction(detector, choice, flight_in));
-  });
+  if (o.field.mapped())
+    write_tracks(o, detector, hypothesis, start, scifi::make_reconstruction(detector, choice, [&o](const scifi::tracker& t) {
+                   // A thousandth of the resolution of a plane is lost at most.
+                   constexpr scifi::nystrom_options steps{1e-2};
+                   const tracker_field& f = o.field.in(t);
+                   return scifi::tracker_flight<scifi::nystrom_propagator<scifi::field_map>>{{*f.map, steps}, f.mean};
+                 }));
+  else
+    write_tracks(o, detector, hypothesis, start, scifi::make_reconstruction(detector, choice, [&o](const scifi::tracker& t) {
+                   const double field = o.field.in(t).mean;
+                   return scifi::tracker_flight<scifi::helix_propagator>{{field}, field};
+                 }));
 }
 
 }  // namespace

@@ -11,6 +11,7 @@ import json
 import math
 import os
 import pathlib
+import random
 import subprocess
 import tempfile
 import unittest
@@ -39,16 +40,29 @@ def nominal_geometry():
                          for tracker, positions in STATIONS.items()]}
 
 
-def misaligned(nominal):
+def misaligned(nominal, moved):
     """The nominal geometry with its inner stations moved."""
     out = copy.deepcopy(nominal)
     for tracker in out["trackers"]:
         for station in tracker["stations"]:
-            dx, dy, turn = MOVED[tracker["tracker"]].get(station["station"], (0.0, 0.0, 0.0))
+            dx, dy, turn = moved[tracker["tracker"]].get(station["station"], (0.0, 0.0, 0.0))
             station["position"][0] += dx
             station["position"][1] += dy
             station["rotation"] = station.get("rotation", 0.0) + math.degrees(turn)
     return out
+
+
+def squares_over_covariance(errors, covariance):
+    """e' inv(C) e, by the Cholesky factor of C."""
+    lower, whitened = [], []
+    for i, error in enumerate(errors):
+        row = []
+        for j in range(i):
+            row.append((covariance[i][j] - sum(a * b for a, b in zip(row, lower[j]))) / lower[j][j])
+        row.append(math.sqrt(covariance[i][i] - sum(a * a for a in row)))
+        lower.append(row)
+        whitened.append((error - sum(a * b for a, b in zip(row, whitened))) / row[i])
+    return sum(w * w for w in whitened)
 
 
 class Align(programs.InAFolder):
@@ -60,7 +74,7 @@ class Align(programs.InAFolder):
         cls.nominal_file, cls.real_file = folder / "nominal.json", folder / "real.json"
         cls.nominal = nominal_geometry()
         cls.nominal_file.write_text(json.dumps(cls.nominal), encoding="utf-8")
-        cls.real_file.write_text(json.dumps(misaligned(cls.nominal)), encoding="utf-8")
+        cls.real_file.write_text(json.dumps(misaligned(cls.nominal, MOVED)), encoding="utf-8")
         subprocess.run([programs.BIN / "scifi-simulate", "--geometry", "real.json", "--events", "1500", "--seed", "11", "--output", "sim", *map(str, STRAIGHT)],
                        cwd=folder, check=True, capture_output=True, timeout=300)
         cls.digits, cls.truth = folder / "sim_digits.csv", folder / "sim_truth.csv"
@@ -173,6 +187,38 @@ class Align(programs.InAFolder):
         self.assertLess(after["p_value"]["kolmogorov_smirnov_distance"], 0.08)
         self.assertLess(after["residuals"]["pz"]["spread"], 0.95 * before["residuals"]["pz"]["spread"])
         self.assertGreaterEqual(after["efficiency"]["found"], 0.995 * before["efficiency"]["found"])
+
+    def check_over_seeds(self, seeds, *simulated, aligned=()):
+        """Both trackers, their inner stations displaced to sides that the seed says: errors made over errors stated."""
+        squares, free, beyond_3 = 0.0, 0, 0
+        for seed in range(1, seeds + 1):
+            side = random.Random(seed).choice
+            moved = {tracker: {station: (side((-0.5, 0.5)), side((-0.5, 0.5)), side((-0.005, 0.005))) for station in (2, 3, 4)} for tracker in (0, 1)}
+            self.write("real.json", json.dumps(misaligned(self.nominal, moved)))
+            self.good("scifi-simulate", "--geometry", "real.json", "--seed", seed, "--output", "seed", *simulated)
+            self.align("--output", "found.json", "--parameters", "found_parameters.json", *aligned, digits="seed_digits.csv")
+            for tracker in self.document("found_parameters.json")["trackers"]:
+                self.assertTrue(tracker["settled"])
+                at = [i for i, p in enumerate(tracker["parameters"]) if p["station"] in (2, 3, 4)]
+                of = [tracker["parameters"][i] for i in at]
+                errors = [p["value"] - moved[tracker["tracker"]][p["station"]][("x", "y", "rotation").index(p["motion"])] for p in of]
+                squares += squares_over_covariance(errors, [[tracker["covariance"][i][j] for j in at] for i in at])
+                free += len(errors)
+                beyond_3 += sum(abs(e) > 3.0 * p["sigma"] for e, p in zip(errors, of))
+        self.assertEqual(free, 18 * seeds)
+        # Whitened by their covariance the pulls are independent: the mean of their squares is known to sqrt(2/n). Four of those, and 10 % either way for the
+        # width of the scattering: Highland's formula is 4 % too wide for the core and too narrow for the tails.
+        width = math.sqrt(squares / free)
+        self.assertLess(abs(width - 1.0), 0.1 + 4.0 / math.sqrt(2.0 * free), f"{free} pulls")
+        # 0.27 % of a normal distribution; 1 % of so many is four or more standard errors above.
+        self.assertLessEqual(beyond_3, 0.01 * free + 1)
+        return width, free, beyond_3
+
+    def test_errors_made_are_the_errors_stated_with_straight_tracks(self):
+        self.check_over_seeds(24, "--events", 300, *STRAIGHT)
+
+    def test_errors_made_are_the_errors_stated_with_helices(self):
+        self.check_over_seeds(12, "--events", 350, "--field", 3, aligned=("--field", 3))
 
     def expect_refused(self, result, message, status=2):
         self.assertEqual(result.returncode, status, result.stderr)

@@ -23,6 +23,7 @@
 #include <scifi/geometry/tracker.hpp>
 
 #include "align/modes.hpp"
+#include "reconstruct/chains.hpp"
 #include "reconstruct/event_source.hpp"
 #include "reconstruct/ordered_blocks.hpp"
 #include "reconstruct/progress.hpp"
@@ -41,14 +42,14 @@ template <class MakeChain>
   namespace alignment = scifi::alignment;
   scifi::detector now;
   for (const aligned_tracker& t : trackers) now.trackers.push_back(t.work.where());
-  const auto reconstruct = make_chain(now);
-  using chain = std::remove_cvref_t<decltype(reconstruct)>;
-  using collector = alignment::track_collector<std::remove_cvref_t<decltype(reconstruct.trackers().front().fit_track)>>;
+  const auto chain = make_chain(now);
+  using chain_type = std::remove_cvref_t<decltype(chain)>;
+  using collector = alignment::track_collector<std::remove_cvref_t<decltype(chain.trackers().front().fit_track)>>;
 
   std::vector<collector> collect;
   std::vector<alignment::tracker_sum> sums, empty;
   for (std::size_t i = 0; i < trackers.size(); ++i) {
-    collect.emplace_back(trackers[i].work.parameters(), reconstruct.trackers()[i].fit_track, trackers[i].work.cuts());
+    collect.emplace_back(trackers[i].work.parameters(), chain.trackers()[i].fit_track, trackers[i].work.cuts());
     empty.push_back(collect.back().empty());
   }
   sums = empty;
@@ -57,7 +58,7 @@ template <class MakeChain>
     std::vector<alignment::tracker_sum> sums;
   };
   struct memory {
-    typename chain::buffers reconstruction;
+    typename chain_type::buffers reconstruction;
     typename collector::buffers collection;
   };
   tbb::enumerable_thread_specific<memory> memories;
@@ -68,7 +69,7 @@ template <class MakeChain>
     memory& m = memories.local();
     b.sums = empty;
     const std::span events(b.events.data(), b.used);
-    reconstruct(events, m.reconstruction);
+    reconstruct(chain, events, m.reconstruction);
     for (const scifi::event& e : events)
       for (std::size_t k = 0; k < collect.size(); ++k) collect[k](e, b.sums[k], m.collection);
   };

@@ -9,19 +9,29 @@
 
 #include "field/chosen_field.hpp"
 
-/// Calls use(flight_in), where flight_in(tracker) is the tracker_flight of the field chosen: Runge-Kutta-Nystrom through a map, else the helix.
+/// How tracks fly in a uniform field that was chosen.
+struct helix_flight {
+  const chosen_field& field;
+  [[nodiscard]] scifi::tracker_flight<scifi::helix_propagator> operator()(const scifi::tracker& t) const {
+    const double mean = field.in(t).mean;
+    return {{mean}, mean};
+  }
+};
+
+/// How tracks fly through a map that was chosen: Runge-Kutta-Nystrom.
+struct map_flight {
+  const chosen_field& field;
+  [[nodiscard]] scifi::tracker_flight<scifi::nystrom_propagator<scifi::field_map>> operator()(const scifi::tracker& t) const {
+    // A thousandth of the resolution of a plane is lost at most.
+    constexpr scifi::nystrom_options steps{1e-2};
+    const tracker_field& f = field.in(t);
+    return {{*f.map, steps}, f.mean};
+  }
+};
+
+/// Calls use(flight_in), where flight_in(tracker) is the tracker_flight of the field chosen.
 template <class Use>
 void with_flight(const chosen_field& field, const Use& use) {
-  if (field.mapped())
-    use([&field](const scifi::tracker& t) {
-      // A thousandth of the resolution of a plane is lost at most.
-      constexpr scifi::nystrom_options steps{1e-2};
-      const tracker_field& f = field.in(t);
-      return scifi::tracker_flight<scifi::nystrom_propagator<scifi::field_map>>{{*f.map, steps}, f.mean};
-    });
-  else
-    use([&field](const scifi::tracker& t) {
-      const double mean = field.in(t).mean;
-      return scifi::tracker_flight<scifi::helix_propagator>{{mean}, mean};
-    });
+  if (field.mapped()) use(map_flight{field});
+  else use(helix_flight{field});
 }

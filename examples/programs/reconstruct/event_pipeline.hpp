@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 #pragma once
 
+#include <atomic>
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
@@ -8,8 +9,10 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 #include <oneapi/tbb/enumerable_thread_specific.h>
+#include <oneapi/tbb/parallel_pipeline.h>
 
 #include <scifi/event/event.hpp>
 #include <scifi/io/atomic_file.hpp>
@@ -17,7 +20,6 @@
 
 #include "reconstruct/event_source.hpp"
 #include "reconstruct/monitor.hpp"
-#include "reconstruct/ordered_blocks.hpp"
 #include "reconstruct/progress.hpp"
 
 /// What is counted on the way.
@@ -58,39 +60,82 @@ struct pipeline_result {
   std::exception_ptr reading_stopped;
 };
 
-/// Reconstructs the events on `threads` threads and writes the rows in the order of the input: the bytes written do not depend on the number of
-/// threads. When the input turns out bad, the events before it are still written. Rethrows what goes wrong while writing. `watch` sees every event.
+/// Reads blocks of events, reconstructs them on `threads` threads and writes the rows in the order of the input: the bytes written do not
+/// depend on the number of threads. A fixed number of blocks is in memory. When the input turns out bad, the events before it are
+/// still written. Rethrows what goes wrong while writing. `watch` sees every event.
 template <class Reconstruction>
 [[nodiscard]] pipeline_result run_pipeline(event_source& source, const Reconstruction& reconstruct, scifi::atomic_file& tracks_file,
                                            std::optional<scifi::atomic_file>& points_file, int threads, progress& display, monitor& watch) {
-  struct block : event_block {
+  struct block {
+    std::vector<scifi::event> events;
+    std::size_t used = 0;
     std::string tracks, points;
     totals sum;
   };
+  constexpr std::size_t most_events = 256;
+  constexpr std::size_t enough_digits = 8192;
+  const std::size_t in_flight = 4 * static_cast<std::size_t>(threads);
+  std::vector<block> blocks(in_flight);
   tbb::enumerable_thread_specific<typename Reconstruction::buffers> buffers;
   pipeline_result result;
-  const auto work = [&](block& b) {
-    b.tracks.clear();
-    b.points.clear();
-    b.sum = {};
+  std::exception_ptr writing_failed;
+  std::atomic<bool> stop = false;
+  std::atomic<std::uintmax_t> bytes_read = 0;
+  std::size_t next_block = 0;
+
+  const auto read = [&](tbb::flow_control& control) -> block* {
+    // The blocks leave in the order in which they came, at most `in_flight` at a time: the next one in the ring is free.
+    block& b = blocks[next_block++ % in_flight];
+    b.used = 0;
+    std::size_t digits = 0;
+    bool more = !stop;
+    try {
+      while (more && b.used < most_events && digits < enough_digits) {
+        if (b.used == b.events.size()) b.events.emplace_back();
+        more = source.read(b.events[b.used]);
+        if (more) digits += b.events[b.used++].digits.size();
+      }
+    } catch (...) {
+      result.reading_stopped = std::current_exception();
+      stop = true;
+    }
+    bytes_read = source.file().consumed();
+    if (b.used == 0) control.stop();
+    return &b;
+  };
+  const auto work = [&](block* b) {
+    b->tracks.clear();
+    b->points.clear();
+    b->sum = {};
     monitor::watcher watching = watch.watch();
-    const std::span events(b.events.data(), b.used);
+    const std::span events(b->events.data(), b->used);
     const auto start = std::chrono::steady_clock::now();
     reconstruct(events, buffers.local());
-    b.sum.reconstruction += std::chrono::steady_clock::now() - start;
+    b->sum.reconstruction += std::chrono::steady_clock::now() - start;
     for (const scifi::event& e : events) {
-      scifi::append_tracks(b.tracks, e);
-      if (points_file) scifi::append_track_points(b.points, e);
-      b.sum.count(e);
+      scifi::append_tracks(b->tracks, e);
+      if (points_file) scifi::append_track_points(b->points, e);
+      b->sum.count(e);
       watching.add(e);
     }
+    return b;
   };
-  const auto write = [&](const block& b, std::uintmax_t bytes_read) {
-    tracks_file.write(b.tracks);
-    if (points_file) points_file->write(b.points);
-    result.sum.add(b.sum);
+  const auto write = [&](const block* b) {
+    if (writing_failed) return;
+    try {
+      tracks_file.write(b->tracks);
+      if (points_file) points_file->write(b->points);
+    } catch (...) {
+      writing_failed = std::current_exception();
+      stop = true;
+      return;
+    }
+    result.sum.add(b->sum);
     display.update(bytes_read, result.sum.events);
   };
-  result.reading_stopped = run_ordered_blocks<block>(source, threads, work, write);
+  tbb::parallel_pipeline(in_flight, tbb::make_filter<void, block*>(tbb::filter_mode::serial_in_order, read) &
+                                        tbb::make_filter<block*, block*>(tbb::filter_mode::parallel, work) &
+                                        tbb::make_filter<block*, void>(tbb::filter_mode::serial_in_order, write));
+  if (writing_failed) std::rethrow_exception(writing_failed);
   return result;
 }

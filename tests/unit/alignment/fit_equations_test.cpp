@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <type_traits>
 
 #include <scifi/alignment/local_elimination.hpp>
 
@@ -25,16 +24,15 @@ struct compared {
 compared compare(int id, double field) {
   const detector where = test::one_tracker(id);
   const auto chain = make_reconstruction(where, {.field = field, .fibre = {}});
-  using fitter = std::remove_cvref_t<decltype(chain.trackers().front().fit_track)>;
-  const fit_equations<fitter> equations(chain.trackers().front().fit_track);
+  const fit_equations<test::standard_fitter> equations(chain.trackers().front().fit_track);
   const tracker_parameters parameters(where.trackers.front(), {});
-  typename fit_equations<fitter>::buffers work;
+  fit_equations<test::standard_fitter>::buffers work;
   track_equations track_rows;
   local_elimination eliminate;
   reduced_track reduced;
   compared out;
   for (event& e : test::crossing_tracks(where.trackers.front(), field, 40, 3)) {
-    chain(e);
+    test::reconstruct(chain, e);
     for (const track& t : e.tracks) {
       REQUIRE(equations(parameters, e, t, track_rows, work) == failure::none);
       eliminate(track_rows, parameters.size(), reduced);
@@ -72,13 +70,12 @@ TEST_CASE("the equations of a helix have the chi2 of its filter", "[alignment]")
 TEST_CASE("a track whose fit stopped has no equations", "[alignment]") {
   const detector where = test::one_tracker(mice::downstream);
   const auto chain = make_reconstruction(where, {});
-  using fitter = std::remove_cvref_t<decltype(chain.trackers().front().fit_track)>;
-  const fit_equations<fitter> equations(chain.trackers().front().fit_track);
+  const fit_equations<test::standard_fitter> equations(chain.trackers().front().fit_track);
   event e = test::crossing_tracks(where.trackers.front(), 0.0, 1, 3).front();
-  chain(e);
+  test::reconstruct(chain, e);
   REQUIRE(e.tracks.size() == 1);
   track_equations rows;
-  typename fit_equations<fitter>::buffers work;
+  fit_equations<test::standard_fitter>::buffers work;
   const tracker_parameters parameters(where.trackers.front(), {});
   CHECK(equations(parameters, e, e.tracks[0], rows, work) == failure::none);
   e.tracks[0].status = {kalman::step_kind::predict, kalman::reason::not_finite};

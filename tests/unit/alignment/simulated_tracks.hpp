@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 #include <scifi/chain/reconstruction.hpp>
@@ -14,6 +16,12 @@
 #include "support/ideal_clusters.hpp"
 
 namespace scifi::test {
+
+using standard_chain = decltype(make_reconstruction(std::declval<const detector&>(), std::declval<const reconstruction_options&>()));
+using standard_fitter = std::remove_cvref_t<decltype(std::declval<const standard_chain&>().trackers().front().fit_track)>;
+
+/// One call for all tests, compiled once: it is what takes longest.
+void reconstruct(const standard_chain& chain, event& e);
 
 /// One tracker of MICE as a detector.
 inline detector one_tracker(int id) {

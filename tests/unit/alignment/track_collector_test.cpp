@@ -2,7 +2,6 @@
 #include <scifi/alignment/track_collector.hpp>
 
 #include <cstddef>
-#include <type_traits>
 #include <vector>
 
 #include "simulated_tracks.hpp"
@@ -17,10 +16,9 @@ namespace {
 tracker_sum pass(const track_cuts& cuts, double field = 0.0) {
   const detector where = test::one_tracker(mice::downstream);
   const auto chain = make_reconstruction(where, {.field = field, .fibre = {}});
-  using fitter = std::remove_cvref_t<decltype(chain.trackers().front().fit_track)>;
   const tracker_parameters parameters(where.trackers.front(), {});
-  const track_collector<fitter> collect(parameters, chain.trackers().front().fit_track, cuts);
-  typename track_collector<fitter>::buffers work;
+  const track_collector<test::standard_fitter> collect(parameters, chain.trackers().front().fit_track, cuts);
+  track_collector<test::standard_fitter>::buffers work;
   tracker_sum first = collect.empty(), second = collect.empty();
   std::vector<event> events = test::crossing_tracks(where.trackers.front(), field, 30, 5);
   for (std::size_t i = 0; i < events.size(); ++i) {
@@ -28,7 +26,7 @@ tracker_sum pass(const track_cuts& cuts, double field = 0.0) {
     if (i == 1 && field == 0.0)  // two channels are 3 mm
       for (digit& d : events[i].digits)
         if (d.id.station == 3 && d.id.plane != 0) d.id.channel += d.id.plane == 1 ? 2 : -2;
-    chain(events[i]);
+    test::reconstruct(chain, events[i]);
     collect(events[i], i < 15 ? first : second, work);
     for (track& t : events[i].tracks) t.tracker = 0;
     collect(events[i], first, work);  // not this tracker's

@@ -3,7 +3,6 @@
 
 #include <cmath>
 #include <cstddef>
-#include <type_traits>
 #include <vector>
 
 #include "simulated_tracks.hpp"
@@ -30,12 +29,11 @@ tracker_alignment align(const detector& believed, std::vector<event> events, dou
   tracker_alignment out(believed.trackers.front(), free, keep, {});
   for (int i = 0; i < 6 && !out.settled(); ++i) {
     const auto chain = make_reconstruction({{out.where()}}, {.field = field, .fibre = {}});
-    using fitter = std::remove_cvref_t<decltype(chain.trackers().front().fit_track)>;
-    const track_collector<fitter> collect(out.parameters(), chain.trackers().front().fit_track, out.cuts());
-    typename track_collector<fitter>::buffers work;
+    const track_collector<test::standard_fitter> collect(out.parameters(), chain.trackers().front().fit_track, out.cuts());
+    track_collector<test::standard_fitter>::buffers work;
     tracker_sum sum = collect.empty();
     for (event& e : events) {
-      chain(e);
+      test::reconstruct(chain, e);
       collect(e, sum, work);
     }
     out.step(sum);
