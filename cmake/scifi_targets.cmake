@@ -25,8 +25,7 @@ function(scifi_compile_here target)
   if(arg_NATIVE AND SCIFI_NATIVE)
     target_compile_options(${target} PRIVATE -march=native)
     if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
-      # False alarms from AVX-512: stores of odd-sized Eigen objects, and operands of intrinsics that are undefined on purpose.
-      target_compile_options(${target} PRIVATE -Wno-array-bounds -Wno-maybe-uninitialized)
+      target_compile_options(${target} PRIVATE -Wno-array-bounds)  # false alarms from AVX-512 stores of odd-sized Eigen objects
     endif()
   endif()
   get_target_property(sources ${target} SOURCES)
