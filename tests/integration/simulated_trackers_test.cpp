@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 // Muons simulated by Geant4 in the trackers, fibre by fibre and independently of this library, from digits to tracks.
+#include <array>
+#include <cmath>
 #include <cstddef>
 #include <filesystem>
 #include <map>
@@ -11,8 +13,10 @@
 #include <scifi/io/csv.hpp>
 #include <scifi/io/digit_reader.hpp>
 #include <scifi/io/geometry_json.hpp>
+#include <scifi/material/highland.hpp>
 
 #include "support/catch.hpp"
+#include "support/sample.hpp"
 #include "support/shared_data.hpp"
 #include "support/track_score.hpp"
 #include "support/track_score_checks.hpp"
@@ -117,4 +121,37 @@ TEST_CASE("two and four muons at once are found and told apart", "[integration]"
   };
   check("tkd_multi2", 0.97);
   check("tkd_multi4", 0.93);
+}
+
+TEST_CASE("the core of Geant4's scattering in a station is Highland's to the 11 % it claims, slow and fast", "[integration]") {
+  const auto data = test::shared_data();
+  if (!data) return;
+  const detector where = read_geometry(*data / "g4" / "geometry.json");
+  std::array<test::sample, 2> over_highland;
+  for (const auto& [number, crossings] : read_truth(*data / "g4" / "tkd_straight_truth.csv.gz"))
+    for (std::size_t i = 0; i + 3 < crossings.size(); ++i) {
+      // Without field, directions at the first planes of two stations differ by what the three planes of the first one did; the helium between does nothing.
+      const crossing &a = crossings[i], &b = crossings[i + 3];
+      if (a.plane != 0 || b.plane != 0 || b.station != a.station + 1) continue;
+      const vector<double, 3> before = a.momentum.normalized(), after = b.momentum.normalized();
+      double layer = 0.0;
+      for (const surface& s : surfaces_along(where.trackers.front(), +1))
+        if (s.station == a.station) layer += radiation_lengths(s.below) + radiation_lengths(s.above);
+      layer /= before.z();
+      const double p = 0.5 * (a.momentum.norm() + b.momentum.norm());
+      const double highland = std::sqrt(highland_variance(p, muon_plus, layer, layer));
+      // Angles about two axes across the flight.
+      const vector<double, 3> first = vector<double, 3>(before.z(), 0.0, -before.x()).normalized();
+      const vector<double, 3> second(before.y() * first.z() - before.z() * first.y(), before.z() * first.x() - before.x() * first.z(),
+                                     before.x() * first.y() - before.y() * first.x());
+      for (const vector<double, 3>& across : {first, second}) over_highland[p < 190.0 ? 0 : 1].add(std::atan2(after.dot(across), after.dot(before)) / highland);
+    }
+  for (const test::sample& s : over_highland) {
+    REQUIRE(s.size() > 6000);
+    INFO("core over Highland " << s.spread() << " of " << s.size());
+    CHECK(std::abs(s.mean()) < 4.0 * s.error_of_mean());
+    CHECK(s.spread() == Approx(1.0).margin(0.11));
+  }
+  // The same at either momentum: the width goes with 1/(beta p).
+  CHECK(over_highland[0].spread() == Approx(over_highland[1].spread()).epsilon(6.0 * over_highland[0].relative_error_of_spread()));
 }
