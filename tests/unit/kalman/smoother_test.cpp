@@ -28,17 +28,17 @@ template <int N>
 using some_values = std::variant<models::linear_values<N, fewest<N>>, models::linear_values<N, fewest<N> + 2>>;
 
 /// A linear system with noise at every step: what is known at its first site, the steps between sites and what is seen at each.
-struct system {
+struct linear_system {
   dense::knowledge start;
   std::vector<dense::knowledge> steps;  // transition and noise
   std::vector<dense::observation> seen;
 };
 
 /// Transitions that turn and stretch by 0.7 to 1.4, so that they can be undone without loss.
-system random_system(std::mt19937_64& engine, int n, int sites) {
+linear_system random_system(std::mt19937_64& engine, int n, int sites) {
   std::bernoulli_distribution more;
   std::uniform_real_distribution<double> stretching(0.7, 1.4);
-  system s{dense::random_knowledge(engine, n), {}, {}};
+  linear_system s{dense::random_knowledge(engine, n), {}, {}};
   for (int k = 0; k < sites; ++k) {
     s.seen.push_back(dense::random_observation(engine, n, fewest_of(n) + (more(engine) ? 2 : 0)));
     if (k + 1 == sites) break;
@@ -50,7 +50,7 @@ system random_system(std::mt19937_64& engine, int n, int sites) {
 }
 
 /// All states at once: the start, the noise of every step and every measurement are rows.
-models::batch by_least_squares(const system& s) {
+models::batch by_least_squares(const linear_system& s) {
   const int sites = static_cast<int>(s.seen.size()), n = static_cast<int>(s.start.mean.size());
   models::batch all(sites, n);
   all.add(0, dense::matrix::Identity(n, n), s.start.mean, s.start.covariance);
@@ -67,8 +67,8 @@ models::batch by_least_squares(const system& s) {
 }
 
 /// Time turned round: x = F^-1 (x' - w), with noise F^-1 Q F^-T. `end` is what is known at the new start.
-system turned_round(const system& s, const dense::knowledge& end) {
-  system back{end, {}, {s.seen.rbegin(), s.seen.rend()}};
+linear_system turned_round(const linear_system& s, const dense::knowledge& end) {
+  linear_system back{end, {}, {s.seen.rbegin(), s.seen.rend()}};
   for (auto step = s.steps.rbegin(); step != s.steps.rend(); ++step) {
     const dense::matrix f = step->mean.inverse();
     back.steps.push_back({f, dense::symmetric(f * step->covariance * f.transpose())});
@@ -80,7 +80,7 @@ template <int N>
 using nodes_of = std::vector<kalman::node<double, N, 4>>;
 
 template <int N>
-[[gnu::noinline]] kalman::run_result<double> filtered(const system& s, nodes_of<N>& nodes) {
+[[gnu::noinline]] kalman::run_result<double> filtered(const linear_system& s, nodes_of<N>& nodes) {
   std::vector<kalman::site<std::optional<models::matrix_step<N>>, some_values<N>>> sites;
   for (std::size_t k = 0; k < s.seen.size(); ++k) {
     std::optional<models::matrix_step<N>> step;
@@ -113,7 +113,7 @@ template <int N>
 void check_smoothers(std::mt19937_64& engine) {
   INFO(N << " components");
   constexpr int sites = 6;
-  const system s = random_system(engine, N, sites);
+  const linear_system s = random_system(engine, N, sites);
   const models::batch all = by_least_squares(s);
   nodes_of<N> nodes;
   const auto run = filtered<N>(s, nodes);
@@ -134,7 +134,7 @@ void check_smoothers(std::mt19937_64& engine) {
 }
 
 /// What is known as a measurement at the last site: in independent rows L^-1 x = L^-1 mean, C = L L', a few at a time.
-void add_as_measurement(system& s, const dense::knowledge& k) {
+void add_as_measurement(linear_system& s, const dense::knowledge& k) {
   const int n = static_cast<int>(k.mean.size()), few = fewest_of(n);
   const dense::matrix rows = dense::matrix(k.covariance.llt().matrixL()).inverse();
   for (int i = 0; i < n; i += few) {
@@ -147,9 +147,9 @@ void add_as_measurement(system& s, const dense::knowledge& k) {
 template <int N>
 void check_directions(std::mt19937_64& engine) {
   INFO(N << " components");
-  system there = random_system(engine, N, 6);
+  linear_system there = random_system(engine, N, 6);
   const dense::knowledge end = dense::random_knowledge(engine, N);
-  system back = turned_round(there, end);
+  linear_system back = turned_round(there, end);
   add_as_measurement(back, there.start);
   add_as_measurement(there, end);
   nodes_of<N> forward, backward;
