@@ -116,6 +116,9 @@ void write_track(const fit_path& path, int travel, const fit_memory<StateSpace, 
   const kalman::estimate<double, 5> at_reference = to_slopes(lane_of(work.nodes[surfaces].smoothed, in));
   t.charge = (at_reference.mean[slope_state::q_over_pz] < 0.0 ? -1 : 1) * travel;
   t.reference = convert(at_reference, [travel](const vector<double, 5>& x) { return slopes_to_momentum(x, travel); });
+  // q/pz so near to zero that the momentum is beyond all numbers.
+  const double of_reference = t.reference.mean.sum() + t.reference.covariance.sum();
+  if (!is_finite(of_reference)) return write_failure(path, job, {kalman::step_kind::smooth, kalman::reason::not_finite}, out);
   fit_summary how = closures_of(*job.from, job.points);
   for (std::size_t i = surfaces; i-- > 0;) {
     const int member = work.cluster_at[lane * surfaces + i];

@@ -17,7 +17,7 @@ struct crossing_point {
   matrix<double, 2, 2> covariance = matrix<double, 2, 2>::Identity(); ///< mm^2
   double z = 0.0;                                                      ///< mean z of the planes, tracker frame, mm
   double chi2 = 0.0;                                                   ///< number of clusters - 2 degrees of freedom
-  bool defined = false;                                                ///< false for parallel lines
+  bool defined = false;                                                ///< false for parallel lines, and where a variance is zero or NaN
 };
 
 /// Crossing of one cluster per entry of `chosen`, for the actual orientation of the planes.

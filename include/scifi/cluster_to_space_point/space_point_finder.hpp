@@ -128,7 +128,7 @@ struct space_point_finder {
     if (!c.defined) return;
     const double radius = where.active_radius + s.planes.front().channel_width;
     const vector<double, 2> from_axis = c.position - s.in_tracker.origin.head<2>();
-    if (from_axis.norm() > radius) return;
+    if (!(from_axis.norm() <= radius)) return;
     space_point p;
     p.tracker = where.id;
     p.station = s.id;

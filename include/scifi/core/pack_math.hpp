@@ -121,11 +121,13 @@ struct reduced_angle {
 
   [[gnu::always_inline]] explicit reduced_angle(const scalar& x) {
     constexpr bool wide = layout<T>::wide;
+    constexpr double largest = wide ? 1.0e5 : 1.0e3;
     const scalar n = nearest_whole(scalar(x * scalar(0.63661977236758134308)));
     quadrant = reinterpret_cast<bits>((n + scalar(layout<T>::shift)).v);
     // pi/2 in three parts, the first two so short that their products with n are exact.
-    const scalar r = ((x - n * scalar(wide ? 0x1.921fb544p+0 : 0x1.92p+0)) - n * scalar(wide ? 0x1.0b4611a6p-34 : 0x1.fb4p-12)) -
+    const scalar reduced = ((x - n * scalar(wide ? 0x1.921fb544p+0 : 0x1.92p+0)) - n * scalar(wide ? 0x1.0b4611a6p-34 : 0x1.fb4p-12)) -
                      n * scalar(wide ? 0x1.3198a2e037073p-69 : 0x1.4442d18469899p-24);
+    const scalar r = select(x * x <= scalar(largest * largest), reduced, scalar(std::numeric_limits<T>::quiet_NaN()));
     const scalar q = r * r;
     scalar odd, even;  // (sin r - r)/r^3 and (cos r - 1 + r^2/2)/r^4 (DLMF 4.19.1, 4.19.2)
     if constexpr (wide) {
@@ -149,13 +151,13 @@ struct reduced_angle {
 
 }  // namespace detail
 
-/// Sine of x (rad), for |x| < 1e5 (float: 1e3).
+/// Sine of x (rad), for |x| <= 1e5 (float: 1e3); NaN beyond.
 template <class T, int Lanes>
 [[nodiscard]] inline pack<T, Lanes> sin(const pack<T, Lanes>& x) {
   return detail::reduced_angle<T, Lanes>(x).sine_after(0);
 }
 
-/// Cosine of x (rad), for |x| < 1e5 (float: 1e3).
+/// Cosine of x (rad), for |x| <= 1e5 (float: 1e3); NaN beyond.
 template <class T, int Lanes>
 [[nodiscard]] inline pack<T, Lanes> cos(const pack<T, Lanes>& x) {
   return detail::reduced_angle<T, Lanes>(x).sine_after(1);

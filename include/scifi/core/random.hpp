@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MPL-2.0
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 
 #include <scifi/core/constants.hpp>
 #include <scifi/core/philox.hpp>
@@ -55,8 +57,14 @@ class random_stream {
   /// Exponential with mean 1.
   [[nodiscard]] double exponential() { return -std::log(uniform()); }
 
-  /// Poisson with this mean >= 0, by inversion: the time grows with the mean. Zero for a mean of zero or below.
+  /// Poisson with this mean >= 0, by inversion: the time grows with the mean. Zero for a mean of zero or below, or NaN. Above a million a rounded Gaussian of the
+  /// same mean and variance, which differs by a thousandth of its width at most; the largest int where that is less.
   [[nodiscard]] int poisson(double mean) {
+    constexpr double many = 1.0e6;
+    if (mean > many) {
+      constexpr double largest = std::numeric_limits<int>::max();
+      return static_cast<int>(std::fmin(std::round(mean + std::sqrt(mean) * normal()), largest));
+    }
     // A sum of Poisson numbers is one: pieces keep exp(-mean) well away from underflow.
     constexpr double piece = 16.0;
     int count = 0;
@@ -64,10 +72,12 @@ class random_stream {
     return mean > 0.0 ? count + small_poisson(mean) : count;
   }
 
-  /// Poisson under the condition that it is not zero, for a mean > 0.
+  /// Poisson under the condition that it is not zero, for a mean > 0. One where the mean is so small that no more can be.
   [[nodiscard]] int poisson_above_zero(double mean) {
+    constexpr double never_zero = 100.0;
+    if (mean > never_zero) return poisson(mean);
     const double probability_of_zero = std::exp(-mean);
-    return poisson_quantile(mean, uniform(probability_of_zero, 1.0));
+    return std::max(poisson_quantile(mean, uniform(probability_of_zero, 1.0)), 1);
   }
 
  private:

@@ -46,13 +46,14 @@ struct grid_place {
   bool inside = true;     ///< false: fraction belongs to the nearest edge
 };
 
-/// The cell of a coordinate. What lies outside by a rounding is inside.
+/// The cell of a coordinate. What lies outside by a rounding is inside; NaN has a fraction of NaN, so that no field is read off there.
 template <single_number Scalar>
 [[nodiscard]] grid_place<Scalar> place_on(const grid_axis& axis, const Scalar& x) {
   constexpr double rounding = 1e-9;  // of a cell
   const Scalar along = (x - Scalar(axis.first)) * Scalar(1.0 / axis.step);
   const double number = number_of(along);
   const auto cells = static_cast<double>(axis.count - 1);
+  if (std::isnan(number)) return {0, along, true};
   if (number < 0.0) return {0, Scalar(0.0), number > -rounding};
   if (!(number < cells)) return {axis.count - 2, Scalar(1.0), number < cells + rounding};
   const double cell = std::floor(number);

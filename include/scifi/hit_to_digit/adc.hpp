@@ -46,14 +46,18 @@ struct adc_response {
   int largest_count = 255;  ///< 8 bits
 
   /// Reading of `photo_electrons` > 0: rounded down, smeared, turned into counts, rounded down, limited to 0 .. largest_count, and back with the same calibration.
-  /// Less than one photo-electron is none and gives npe = 0 exactly.
+  /// Less than one photo-electron, or NaN, is none and gives npe = 0 exactly; so does a channel whose calibration is not valid.
   [[nodiscard]] adc_reading read(double photo_electrons, const adc_line& calibration, random_stream& random) const {
+    if (!calibration.valid()) return {};
     const double whole = std::floor(photo_electrons);
-    if (!(whole > 0.0)) return {static_cast<int>(calibration.pedestal), 0.0};
+    if (!(whole > 0.0)) return {limited(calibration.pedestal), 0.0};
     const double smeared = whole + resolution * random.normal();
-    const double counts = std::clamp(std::floor(smeared * calibration.gain + calibration.pedestal), 0.0, static_cast<double>(largest_count));
-    return {static_cast<int>(counts), calibration.npe(static_cast<int>(counts))};
+    const int counts = limited(std::floor(smeared * calibration.gain + calibration.pedestal));
+    return {counts, calibration.npe(counts)};
   }
+
+ private:
+  [[nodiscard]] int limited(double counts) const { return static_cast<int>(std::fmax(std::fmin(counts, largest_count), 0.0)); }  // NaN is the largest
 };
 
 }  // namespace scifi

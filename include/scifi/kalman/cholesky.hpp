@@ -77,7 +77,7 @@ class cholesky {
   Scalar margin_;
 };
 
-/// Lower factor L of a symmetric positive semidefinite matrix, L L' = A; a pivot below N eps A_ii gives a column of zeros.
+/// Lower factor L of a symmetric positive semidefinite matrix, L L' = A; a pivot below N eps A_ii gives a column of zeros, one that is not finite NaN.
 /// A process noise is often of lower rank than the state, which `cholesky` would refuse.
 template <class Scalar, int N>
 [[nodiscard]] matrix<Scalar, N, N> semidefinite_factor(const matrix<Scalar, N, N>& a) {
@@ -91,7 +91,7 @@ template <class Scalar, int N>
     const auto positive = pivot > least;
     const Scalar root = sqrt(select(positive, pivot, Scalar(1.0)));
     const Scalar inverse = Scalar(1.0) / root;
-    lower(j, j) = select(positive, root, Scalar(0.0));
+    lower(j, j) = select(positive, root, Scalar(pivot - pivot));  // zero, or NaN
     for (int i = j + 1; i < N; ++i) {
       Scalar sum(a(i, j));
       for (int k = 0; k < j; ++k) sum -= lower(i, k) * lower(j, k);

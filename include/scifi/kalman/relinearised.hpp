@@ -39,14 +39,19 @@ struct never_settled {
 /// track, iterated extended Kalman smoother (Bell, SIAM J. Optim. 4 (1994) 626). The first pass is linearised along the flight of `seed`.
 ///
 /// `sites`, `nodes` and `references` are contiguous; nodes has as many elements as sites, references one more. Does not allocate. With one pass and a
-/// good seed this is the filter linearised about a reference track. On failure the nodes reached are kept as `run` leaves them.
+/// good seed this is the filter linearised about a reference track. On failure the nodes reached are kept as `run` leaves them;
+/// less than one pass fails with not_converged.
 /// `settled(reference state, smoothed estimate)`, asked at the last site, may end it before all passes are made.
 template <class Filter, class Scalar, int N, class Sites, class Nodes, class References, class Settled = detail::never_settled, class Smoother = rauch_tung_striebel>
 [[nodiscard]] run_result<Scalar> run_relinearised(const Filter& filter, const estimate<Scalar, N>& start, const vector<Scalar, N>& seed, const Sites& sites, Nodes& nodes,
                                                   References& references, int passes, const Settled& settled = {}, const Smoother& smoother = {}) {
-  references[0] = seed;
   const std::size_t k = std::size(sites);
   run_result<Scalar> result;
+  if (passes < 1) {
+    result.status = {step_kind::predict, reason::not_converged};
+    return result;
+  }
+  references[0] = seed;
   for (int pass = 0; pass < passes; ++pass) {
     if (pass == 0) result = filter.run(start, sites, nodes, detail::flown_references<References>{references});
     else result = filter.run(start, sites, nodes, references);

@@ -135,6 +135,15 @@ template <class Filter, class Prior, class Sites, class Nodes, class References>
       result.ndf += select(n.outlier, count<Scalar>(0), count<Scalar>(n.measurement_dimension));
       ++result.reached;
     }
+    // Steps look at variances only. What else is not finite, from a noise say, stays in the covariance: one look at the end sees it.
+    if (result.reached > 0) {
+      auto& last = nodes[result.reached - 1];
+      if (!any_of(is_finite<Scalar>(last.filtered.covariance.sum()))) {
+        last.status = {step_kind::update, reason::not_finite};
+        --result.reached;
+        return fail(last.status);
+      }
+    }
   }
   return result;
 }

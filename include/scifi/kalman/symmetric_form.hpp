@@ -8,7 +8,8 @@ namespace scifi::kalman {
 /// Update in the symmetric form, P+ = P - P H' S^-1 H P as a sum of squares: the cheapest, symmetric to the last bit.
 ///
 /// Valid where no measurement is so precise that the variance left, H P+ H', drowns in the rounding of P: R well above eps H P H'. It fails there with
-/// not_positive_definite, or leaves a covariance of the size of the rounding; use `joseph` or `square_root` then.
+/// not_positive_definite, or leaves a covariance of the size of the rounding; use `joseph` or `square_root` then. Variances between 1e-150 and 1e150, whose squares
+/// are numbers.
 struct symmetric_form {
   template <class Scalar, int N, class Measurement>
   [[nodiscard]] auto operator()(const estimate<Scalar, N>& prior, const Measurement& m) const -> updated<Scalar, N, max_measurement_dimension<Measurement>> {

@@ -11,7 +11,7 @@ namespace scifi::kalman {
 /// Lower triangular L (Rows x Rows, diagonal not negative) with L L' = A A', without forming A A'.
 ///
 /// Householder reflections from the right (Golub and Van Loan, Matrix Computations, 4th ed., section 5.1 and 5.2), so the condition
-/// number that matters is that of A, not its square. Cols >= Rows. No data-dependent branches.
+/// number that matters is that of A, not its square. Cols >= Rows. No data-dependent branches. What is not finite in A leaves NaN or infinity on the diagonal.
 template <class Scalar, int Rows, int Cols>
 [[nodiscard]] matrix<Scalar, Rows, Rows> lower_triangular(matrix<Scalar, Rows, Cols> a) {
   static_assert(Cols >= Rows, "scifi: lower_triangular needs at least as many columns as rows");
@@ -22,7 +22,7 @@ template <class Scalar, int Rows, int Cols>
     for (int j = k; j < Cols; ++j) norm2 += a(k, j) * a(k, j);
     const auto nonzero = norm2 > Scalar(0.0);
     const Scalar root = sqrt(select(nonzero, norm2, Scalar(1.0)));
-    const Scalar norm = select(nonzero, root, Scalar(0.0));
+    const Scalar norm = select(nonzero, root, norm2);  // zero, or NaN
     // v = row - alpha e_k with alpha of the sign opposite to the leading entry, so that nothing cancels.
     const Scalar lead(a(k, k));
     const Scalar alpha = select(lead < Scalar(0.0), norm, Scalar(-norm));

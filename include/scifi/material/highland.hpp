@@ -31,11 +31,11 @@ template <scalar Scalar>
   const Scalar p2 = p * p;
   const Scalar inverse_beta2 = Scalar(1.0) + Scalar(hypothesis.mass * hypothesis.mass) / p2;
   const Scalar argument = layer_radiation_lengths_along_path * inverse_beta2 * Scalar(charge2);
-  const auto matter = Scalar(0.0) < argument;
-  const Scalar safe_argument = select(matter, argument, Scalar(1.0));
+  const auto nothing = argument <= Scalar(0.0);
+  const Scalar safe_argument = select(nothing, Scalar(1.0), argument);
   const Scalar correction = larger_of(Scalar(Scalar(1.0) + log(safe_argument) * Scalar(highland::log_coefficient)), Scalar(0.0));
   const Scalar unit = inverse_beta2 / p2 * Scalar(highland::energy * highland::energy * charge2);
-  return select(matter, Scalar(unit * radiation_lengths_along_path * correction * correction), Scalar(0.0));
+  return select(nothing, Scalar(0.0), Scalar(unit * radiation_lengths_along_path * correction * correction));
 }
 
 /// The same for a particle whose logarithms are known already; thicknesses at normal incidence.
@@ -43,7 +43,7 @@ template <scalar Scalar>
 [[nodiscard]] Scalar highland_variance(const crossing_particle<Scalar>& crossing, const particle& hypothesis, double radiation_lengths, double layer_radiation_lengths) {
   using std::log;
   const double charge2 = static_cast<double>(hypothesis.charge) * hypothesis.charge;
-  if (!(radiation_lengths > 0.0) || charge2 == 0.0) return Scalar(0.0);
+  if (radiation_lengths <= 0.0 || charge2 == 0.0) return Scalar(0.0);
   const Scalar logarithm = Scalar(log(layer_radiation_lengths * charge2)) + crossing.log_path_over_beta_squared;
   const Scalar correction = larger_of(Scalar(Scalar(1.0) + logarithm * Scalar(highland::log_coefficient)), Scalar(0.0));
   const Scalar unit = Scalar(highland::energy * highland::energy * charge2 * radiation_lengths) * crossing.per_p_beta_squared;
@@ -59,9 +59,9 @@ struct prepared_highland {
   /// Adds a slab: thicknesses at normal incidence, of the slab and of its layer.
   void add(const particle& hypothesis, double radiation_lengths, double layer_radiation_lengths) {
     const double charge2 = static_cast<double>(hypothesis.charge) * hypothesis.charge;
-    if (!(radiation_lengths > 0.0) || charge2 == 0.0) return;
+    if (radiation_lengths <= 0.0 || charge2 == 0.0) return;
     const double correction = 1.0 + std::log(layer_radiation_lengths * charge2) * highland::log_coefficient;
-    if (!(correction > 0.0)) return;
+    if (correction <= 0.0) return;
     const double scale = highland::energy * highland::energy * charge2 * radiation_lengths;
     constant += scale * correction * correction;
     linear += scale * 2.0 * correction * highland::log_coefficient;

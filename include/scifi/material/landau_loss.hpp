@@ -38,7 +38,7 @@ struct landau_slab {
 [[nodiscard]] inline landau_slab landau_slab_of(const particle& hypothesis, const slab& s, double layers, double offset) {
   const double excitation = s.medium.mean_excitation_energy;
   const double xi_per_mm = landau_xi_per_mm(hypothesis, s.medium);
-  if (!(s.thickness > 0.0) || !(xi_per_mm > 0.0)) return {};
+  if (s.thickness <= 0.0 || xi_per_mm <= 0.0) return {};
   const double twice_mass = 2.0 * constants::electron_mass / (excitation * excitation);
   const double log_mode = std::log(twice_mass * xi_per_mm * layer_thickness(s) * layers) + landau::most_probable_offset + offset;
   const double log_mean = std::log(twice_mass);

@@ -49,7 +49,7 @@ struct fixed_loss {
 /// Transfers T above a limit T_c come from dn/dT = xi (1 - beta^2 T/T_max) / T^2 (PDG 2024, eqs. 34.3, 34.4, spin 0), xi as in eq. 34.12;
 /// their number is Poisson. The sum of those below has the rest of Bethe's mean and variance xi T_c (1 - beta^2 T_c / (2 T_max)).
 /// So thin layers follow Landau's distribution cut at T_max, thicker ones Vavilov's, and pieces of a path add up to the path.
-/// T_c = `limit` xi, where the sum below is nearly Gaussian, yet not under `excitations` I: electrons are not free there.
+/// T_c = `limit` xi, where the sum below is nearly Gaussian, yet not under `excitations` I: electrons are not free there. A limit below 1e-4 counts as that.
 /// The binding of the electrons widens the most probable part further where xi is below some 10 I (Blunck, Leisegang); that is left out.
 struct collision_loss {
   double limit = 0.1;
@@ -66,7 +66,8 @@ struct collision_loss {
     const ionisation_kinematics<double> k = ionisation_kinematics_of(p, hypothesis);
     const double xi = landau_xi(k, hypothesis, medium, path);
     const double largest = k.largest_transfer;
-    const double cut = std::min(std::max(limit * xi, excitations * medium.mean_excitation_energy), largest);
+    constexpr double least_limit = 1.0e-4;  // 1/limit transfers are drawn on average
+    const double cut = std::min(std::max(std::max(least_limit, limit) * xi, excitations * medium.mean_excitation_energy), largest);
     const double mean = mean_energy_loss_rate(p, hypothesis, medium).value * path;
 
     const double mean_above = xi * (std::log(largest / cut) - k.beta_squared * (1.0 - cut / largest));

@@ -48,10 +48,13 @@ inline constexpr int max_fibre_crossings = 8;
 
   const double step = p.channel_width / doublet.fibres_per_channel;
   const double at_row = (fibre_alpha(p, doublet, 0) - alpha_at_row) / step;  // as a fractional fibre number
-  const int first = std::max(0, static_cast<int>(std::ceil(at_row - reach / step)));
-  const int last = std::min(p.channels * doublet.fibres_per_channel - 1, static_cast<int>(std::floor(at_row + reach / step)));
+  const double lowest = std::max(0.0, std::ceil(at_row - reach / step));
+  const double highest = std::min(p.channels * doublet.fibres_per_channel - 1.0, std::floor(at_row + reach / step));
 
   inline_vector<fibre_crossing, max_fibre_crossings> out;
+  if (!(lowest <= highest)) return out;
+  const int first = static_cast<int>(lowest);
+  const int last = static_cast<int>(highest);
   for (int fibre = first + (first % 2 == row ? 0 : 1); fibre <= last; fibre += 2) {
     const double to_axis = fibre_alpha(p, doublet, fibre) - alpha;
     const double distance = (to_axis * d_z - rise * d_alpha) / across;

@@ -33,8 +33,9 @@ struct fibre_layer {
   for (const int row : {0, 1}) {
     const double rise = height - row_height(doublet, row);
     if (rise * rise >= radius2) continue;
-    const int fibre = row + 2 * static_cast<int>(std::lround(0.5 * (number - row)));
-    if (fibre < 0 || fibre >= p.channels * doublet.fibres_per_channel) continue;
+    const double nearest = row + 2.0 * std::round(0.5 * (number - row));
+    if (!(nearest >= 0.0 && nearest < p.channels * doublet.fibres_per_channel)) continue;
+    const int fibre = static_cast<int>(nearest);
     const double aside = alpha - fibre_alpha(p, doublet, fibre);
     if (aside * aside + rise * rise < radius2) return fibre;
   }

@@ -34,7 +34,8 @@ struct gaussian_beam {
     if (!(pz_spread >= 0.0) || !(pz_spread < pz)) throw std::invalid_argument("gaussian_beam: the spread of pz must not be negative nor reach pz");
   }
 
-  /// A particle at z (mm) that flies along `direction` (+1 or -1) in z; `field` is Bz, (MeV/c)/(e mm), in the same frame.
+  /// A particle at z (mm) that flies along `direction` (+1 or -1) in z; `field` is Bz, (MeV/c)/(e mm), in the same frame. Throws
+  /// std::invalid_argument where none can be drawn, which `check` would have said.
   [[nodiscard]] moving_particle shoot(double z, int direction, double field, random_stream& random) const {
     const double kappa = hypothesis.charge * field / (2.0 * pz);
     const double k = beta * kappa - canonical;
@@ -48,9 +49,12 @@ struct gaussian_beam {
     const double px = pz / beta * (-alpha * x + k * y) + spread * random.normal();
     const double py = pz / beta * (-k * x - alpha * y) + spread * random.normal();
     constexpr double slowest = 0.1;
-    double own = 0.0;
-    do own = pz + pz_spread * random.normal();
-    while (!(own > slowest * pz));
+    double own = pz + pz_spread * random.normal();
+    constexpr int most_draws = 1000;  // one in two is above, at least, in a beam that passed the check
+    for (int draws = 1; !(own > slowest * pz); ++draws) {
+      if (draws == most_draws) throw std::invalid_argument("gaussian_beam: no pz is above a tenth of its mean");
+      own = pz + pz_spread * random.normal();
+    }
     out.momentum = {px, py, direction * own};
     return out;
   }

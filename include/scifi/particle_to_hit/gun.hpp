@@ -32,11 +32,15 @@ struct flat_beam {
     if (!(radius >= 0.0)) throw std::invalid_argument("flat_beam: the radius must not be negative");
   }
 
-  /// A particle that flies along `direction` (+1 or -1) in z, starting on the disc at z (mm).
+  /// A particle that flies along `direction` (+1 or -1) in z, starting on the disc at z (mm). Throws std::invalid_argument where a million pairs of pt and pz, or
+  /// all there are, had a slope above the limit.
   [[nodiscard]] moving_particle shoot(double z, int direction, random_stream& random) const {
     double pz = 0.0;
     double pt = 0.0;
+    int draws = 0;
+    constexpr int most_draws = 1000000;
     do {
+      if (++draws > most_draws) throw std::invalid_argument("flat_beam: hardly any pair of pt and pz has a slope below the limit");
       pz = random.uniform(pz_min, pz_max);
       pt = random.uniform(pt_min, pt_max);
     } while (!(pt <= pt_over_pz_max * pz) || !(pz > 0.0));

@@ -75,7 +75,7 @@ struct coulomb_scattering {
 /// Turns a direction by two projected angles (rad), each about its own axis at right angles to it; its length stays.
 [[nodiscard]] inline vector<double, 3> turned_by(const vector<double, 3>& momentum, const vector<double, 2>& angles) {
   const double angle = angles.norm();
-  if (!(angle > 0.0)) return momentum;
+  if (angle == 0.0) return momentum;
   const double p = momentum.norm();
   const vector<double, 3> forward = momentum / p;
   // Any axis not along the momentum will do: the angles are isotropic.

@@ -9,7 +9,7 @@ namespace scifi {
 /// How the flight of a particle through a tracker ended.
 enum class flight_end {
   crossed,      ///< it passed every plane
-  left,         ///< it went further from the axis than the radius of the tracker
+  left,         ///< it went further from the axis than the radius of the tracker, or was nowhere: NaN or infinity at the start
   stopped,      ///< nothing of its kinetic energy was left
   turned_back,  ///< it no longer flew along the direction in which it started
   decayed,      ///< in flight

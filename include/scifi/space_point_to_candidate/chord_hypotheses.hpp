@@ -56,7 +56,8 @@ class chord_hypotheses {
     const double half = 0.5 * (step1_ + step2_);
     const planar<double> product = conjugate(first) * second;
     const double angle = -std::atan2(product.y, product.x);  // w half, modulo a turn; half a turn off where one of the chords has passed a whole turn
-    const int turns = static_cast<int>(std::ceil(largest_ * half / (2.0 * constants::pi)));
+    constexpr double most_turns = 100.0;
+    const int turns = static_cast<int>(std::fmin(std::ceil(largest_ * half / (2.0 * constants::pi)), most_turns));
     const int step = largest_ * std::max(step1_, step2_) < 2.0 * constants::pi ? 2 : 1;
     for (int n = -2 * turns; n <= 2 * turns; n += step) {
       const double w = (angle + n * constants::pi) / half;

@@ -129,7 +129,7 @@ class combination_search {
 
   [[nodiscard]] bool too_steep(const arc_point& a, const arc_point& b) const {
     const double reach = options_.largest_slope * (b.z - a.z) + 5.0 * std::sqrt(a.variance + b.variance);
-    return norm(b.position - a.position) > reach * reach;
+    return !(norm(b.position - a.position) <= reach * reach);
   }
 
   /// No brighter than thermal noise is.
@@ -169,7 +169,7 @@ class combination_search {
   void follow(const arc_fit& fit) {
     const std::size_t level = chosen_.size();
     const double ndf = 2.0 * static_cast<double>(level) - (bent() ? 5.0 : 4.0);
-    if (fit.chi2_after_step() > chi2_per_ndf_ * ndf + gate_) return;
+    if (!(fit.chi2_after_step() <= chi2_per_ndf_ * ndf + gate_)) return;
     if (level == stations_.size()) {
       finish(fit);
       return;
@@ -188,7 +188,7 @@ class combination_search {
         ahead.fly(arc(next).z, scatter);
         flown = true;
       }
-      if (ahead.distance2(arc(next)) > gate_) continue;
+      if (!(ahead.distance2(arc(next)) <= gate_)) continue;
       chosen_.push_back(next);
       follow(refine(fit.curvature(), 2));
       chosen_.pop_back();
@@ -198,7 +198,7 @@ class combination_search {
   void finish(const arc_fit& fit) {
     const track_finder_options& o = options_;
     const int ndf = 2 * static_cast<int>(chosen_.size()) - (bent() ? 5 : 4);
-    if (fit.chi2() > chi2_per_ndf_ * ndf || norm(fit.slope()) > o.largest_slope * o.largest_slope) return;
+    if (!(fit.chi2() <= chi2_per_ndf_ * ndf) || !(norm(fit.slope()) <= o.largest_slope * o.largest_slope)) return;
     if (bent() && std::abs(fit.curvature() / o.field) > 1.2 / o.smallest_pz) return;
     candidate c;
     c.tracker = where_.id;

@@ -25,9 +25,11 @@ namespace scifi {
 /// by chi2 - gain x clusters.
 class track_finder {
  public:
+  /// Throws std::invalid_argument where the options make no sense.
   template <class Scattering>
   track_finder(const tracker& where, const track_finder_options& options, const particle& hypothesis, const Scattering& scattering)
       : setting_{where.id, where.beam_direction, {}, station_scattering(where, hypothesis, scattering), options} {
+    options.check();
     for (const station& s : where.stations) setting_.stations.push_back(s.id);
   }
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 #include <scifi/track_model/q_over_pz_prior.hpp>
 
@@ -27,6 +28,18 @@ struct track_finder_options {
   int max_shared_clusters = 3;     ///< with better candidates: two tracks may cross the same channel
   int max_arc_fits = 100000;       ///< bound on the search in one tracker ...
   long max_looks = 20'000'000;     ///< ... and on the space points that it looks at, each time it does
+
+  /// Throws std::invalid_argument, naming the culprit, where no track can be expected.
+  void check() const {
+    const auto positive = [](double x) { return x > 0.0 && std::isfinite(x); };
+    if (!std::isfinite(field)) throw std::invalid_argument("track_finder_options: the field must be finite");
+    if (!positive(line_momentum)) throw std::invalid_argument("track_finder_options: the momentum of straight tracks must be above zero");
+    if (!positive(largest_slope)) throw std::invalid_argument("track_finder_options: the largest slope must be above zero");
+    if (!positive(smallest_pz)) throw std::invalid_argument("track_finder_options: the smallest pz must be above zero");
+    if (!positive(prior.typical) || !(prior.spread >= 0.0 && std::isfinite(prior.spread)))
+      throw std::invalid_argument("track_finder_options: the prior of q/pz needs a typical value above zero and a spread that is not negative");
+    if (!(prior.typical * smallest_pz <= 1.0)) throw std::invalid_argument("track_finder_options: the typical q/pz of the prior belongs to a pz below the smallest");
+  }
 };
 
 /// Momentum (MeV/c) to be expected of a track with curvature w (rad/mm) and squared slope t2: bounded, so that an unbent track is not taken for

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <vector>
 
 #include <scifi/core/constants.hpp>
 #include <scifi/study/sample.hpp>
@@ -32,16 +33,18 @@ struct flatness {
   return sum;
 }
 
-/// One-sample Kolmogorov-Smirnov test against the uniform distribution. Values in 0 .. 1. The probability is that of Kolmogorov's limit at
+/// One-sample Kolmogorov-Smirnov test against the uniform distribution. Values in 0 .. 1; both numbers are NaN where one is. The probability is that of Kolmogorov's limit at
 /// l = (sqrt(n) + 0.12 + 0.11/sqrt(n)) D (M. A. Stephens, J. R. Stat. Soc. B 32 (1970) 115), good from n = 4 on.
 [[nodiscard]] inline flatness flatness_of(const sample& probabilities) {
   flatness out;
   out.count = probabilities.size();
   if (out.count == 0) return out;
+  const std::vector<double> sorted = probabilities.sorted();
+  if (std::isnan(sorted.back())) return out;
   const double n = static_cast<double>(out.count);
   double distance = 0.0;
   double below = 0.0;
-  for (const double p : probabilities.sorted()) {
+  for (const double p : sorted) {
     distance = std::max({distance, p - below / n, (below + 1.0) / n - p});
     below += 1.0;
   }

@@ -20,9 +20,10 @@ class sample {
   }
   [[nodiscard]] std::size_t size() const { return values_.size(); }
   [[nodiscard]] std::span<const double> values() const { return values_; }
+  /// In rising order, NaN last.
   [[nodiscard]] std::vector<double> sorted() const {
     std::vector<double> out = values_;
-    std::sort(out.begin(), out.end());
+    std::sort(out.begin(), out.end(), [](double a, double b) { return a < b || (std::isnan(b) && !std::isnan(a)); });
     return out;
   }
 
@@ -30,16 +31,16 @@ class sample {
   std::vector<double> values_;
 };
 
-/// Quantile of sorted values, linear between order statistics: the place of the q-th of n is q (n - 1). NaN of none.
+/// Quantile of sorted values, linear between order statistics: the place of the q-th of n is q (n - 1). NaN of none, and for q outside 0 .. 1.
 [[nodiscard]] inline double quantile(std::span<const double> sorted, double q) {
-  if (sorted.empty()) return std::numeric_limits<double>::quiet_NaN();
+  if (sorted.empty() || !(q >= 0.0 && q <= 1.0)) return std::numeric_limits<double>::quiet_NaN();
   const double place = q * static_cast<double>(sorted.size() - 1);
   const auto i = static_cast<std::size_t>(place);
   const std::size_t next = std::min(i + 1, sorted.size() - 1);
   return sorted[i] + (sorted[next] - sorted[i]) * (place - static_cast<double>(i));
 }
 
-/// A distribution in few numbers, of which outliers change only the mean and the tail. All NaN of no value.
+/// A distribution in few numbers, of which outliers change only the mean and the tail. All NaN of no value, and where one is NaN.
 struct summary {
   std::size_t count = 0;
   double mean = std::numeric_limits<double>::quiet_NaN();
@@ -57,6 +58,7 @@ struct summary {
   out.count = values.size();
   if (out.count == 0) return out;
   const std::vector<double> sorted = values.sorted();
+  if (std::isnan(sorted.back())) return out;
   const double n = static_cast<double>(out.count);
   double sum = 0.0;
   for (const double x : sorted) sum += x;

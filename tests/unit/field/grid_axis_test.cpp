@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <unsupported/Eigen/AutoDiff>
 
+#include <cmath>
 #include <limits>
 
 #include "support/catch.hpp"
