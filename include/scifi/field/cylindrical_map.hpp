@@ -39,9 +39,9 @@ class cylindrical_map {
     using std::sqrt;
     const Scalar x = position[0], y = position[1];
     const Scalar r_2 = x * x + y * y;
-    const auto off_axis = Scalar(1e-12 * grid_.axes()[0].step * grid_.axes()[0].step) < r_2;
-    const Scalar safe = sqrt(select(off_axis, r_2, Scalar(1.0)));
-    const Scalar r = select(off_axis, safe, Scalar(0.0));
+    const auto on_axis = r_2 <= Scalar(1e-12 * grid_.axes()[0].step * grid_.axes()[0].step);  // not NaN
+    const Scalar safe = sqrt(select(on_axis, Scalar(1.0), r_2));
+    const Scalar r = select(on_axis, Scalar(0.0), safe);
     const grid_place<Scalar> at_r = place_on(grid_.axes()[0], r), at_z = place_on(grid_.axes()[1], Scalar(position[2]));
     field_and_gradient<Scalar> out;
     if (!(at_r.inside && at_z.inside) && outside_ != outside_map::nearest) {
@@ -53,8 +53,8 @@ class cylindrical_map {
     const auto s = grid_.template sample<Scalar>({at_r, at_z});
     const auto& [by_r, by_z] = s.slope[0];
     const Scalar zero(0.0);
-    const Scalar c = select(off_axis, Scalar(x / safe), zero), d = select(off_axis, Scalar(y / safe), zero);
-    const Scalar per_r = select(off_axis, Scalar(s.value[0] / safe), by_r);
+    const Scalar c = select(on_axis, zero, Scalar(x / safe)), d = select(on_axis, zero, Scalar(y / safe));
+    const Scalar per_r = select(on_axis, by_r, Scalar(s.value[0] / safe));
     const Scalar rest = by_r - per_r;  // Br'- Br/r
     out.value << per_r * x, per_r * y, s.value[1];
     out.gradient << per_r + c * c * rest, c * d * rest, c * by_z,  //
