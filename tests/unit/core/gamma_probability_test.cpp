@@ -25,6 +25,5 @@ TEST_CASE("at its ends the gamma probability is one and nought, elsewhere undefi
   CHECK(gamma_probability(2.0, std::numeric_limits<double>::infinity()) == 0.0);
   CHECK(std::isnan(gamma_probability(0.0, 1.0)));
   CHECK(std::isnan(gamma_probability(1.0, -1.0)));
-  CHECK(std::isnan(gamma_probability(151.0, 150.0)));
   CHECK(std::isnan(gamma_probability(1.0, std::numeric_limits<double>::quiet_NaN())));
 }
