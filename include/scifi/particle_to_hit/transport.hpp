@@ -93,8 +93,7 @@ class transport {
 
   flight_end follow(const moving_particle& moving, int index, int parent, random_stream& random, truth& out) const {
     if (moving.momentum.z() == 0.0) return flight_end::turned_back;
-    const double probe = moving.position.sum() + moving.momentum.sum() + moving.t;
-    if (!is_finite(probe)) return flight_end::left;  // it is nowhere
+    if (!is_finite(moving.position.sum() + moving.momentum.sum() + moving.t)) return flight_end::left;  // it is nowhere
     const double life = settings_.decays ? mean_life(moving.hypothesis) * random.exponential() : std::numeric_limits<double>::infinity();
     flight f{moving, index, parent, moving.momentum.z() > 0.0 ? 1 : -1, flight_end::crossed, life, random, out};
     for (std::size_t i = 0; i < layers_.size() && !f.over(); ++i) cross(f, layers_[f.direction > 0 ? i : layers_.size() - 1 - i]);
