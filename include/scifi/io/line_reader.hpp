@@ -70,7 +70,7 @@ class line_reader {
     }
   }
 
-  static constexpr std::size_t first_size = std::size_t{1} << 18;
+  static constexpr std::size_t first_size = std::size_t{1} << 16;
   text_source source_;
   std::size_t longest_;
   std::vector<char> buffer_;

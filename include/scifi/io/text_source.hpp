@@ -107,7 +107,7 @@ class text_source {
     return produced;
   }
 
-  static constexpr std::size_t block_size = std::size_t{1} << 18;
+  static constexpr std::size_t block_size = std::size_t{1} << 16;
   std::string name_;
   std::unique_ptr<std::FILE, closer> file_;
   std::vector<unsigned char> input_ = std::vector<unsigned char>(block_size);
