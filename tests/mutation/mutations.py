@@ -66,7 +66,7 @@ MUTATIONS = [
     ("hit_to_digit/light_yield.hpp", "(1.0 + mirror)", "(1.0 - mirror)"),
     ("hit_to_digit/noise.hpp", "channel += 1.0 + std::floor", "channel += std::floor"),
     ("event/adc_line.hpp", "return (counts - pedestal) / gain;", "return counts / gain;"),
-    ("hit_to_digit/adc.hpp", "static_cast<double>(largest_count));", "1.0e9);"),
+    ("hit_to_digit/adc.hpp", "std::fmin(counts, largest_count)", "std::fmin(counts, 1.0e9)"),
     # alignment: a sign of a kink, a lever arm, a value of a constraint, a share of a sum
     ("alignment/track_linearisation.hpp", "at.residual + at.projection", "at.residual - at.projection"),
     ("alignment/tracker_parameters.hpp", "(y - o.y()) - at.sin_angle", "(y - o.y()) + at.sin_angle"),
