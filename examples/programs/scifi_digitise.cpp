@@ -28,6 +28,7 @@
 #include <scifi/version.hpp>
 
 #include "conditions/stored_conditions.hpp"
+#include "interruption.hpp"
 #include "run_program.hpp"
 
 namespace {
@@ -139,6 +140,7 @@ void run(options& o) {
   const setup with{cabling.cables().size(), calibration.size(), bad.size(), channels_of(detector) - cabling.cables().size()};
   const scifi::readout_digitiser digitise(cabling, calibration, bad, o.min_npe);
 
+  interruption::listen();
   scifi::raw_reader source(o.raw);
   digit_output out(o.output);
   scifi::readout_tally sum;
@@ -146,6 +148,7 @@ void run(options& o) {
   std::vector<scifi::raw_digit> digits;
   long events = 0;
   while (source.read(event)) {
+    interruption::throw_if_received();
     sum += digitise(event.counts, digits);
     out.write(event.number, digits);
     ++events;

@@ -24,6 +24,7 @@
 
 #include "conditions/stored_conditions.hpp"
 #include "display/display_events.hpp"
+#include "interruption.hpp"
 #include "run_program.hpp"
 #include "shared_page.hpp"
 
@@ -91,6 +92,7 @@ void run(options& o) {
   }
   choice.field = o.given_field.value_or(field) * scifi::units::tesla;
 
+  interruption::listen();
   display_events source(o.from, detector, choice);
   scifi::phoenix_events phoenix(detector, choice.field);
   nlohmann::ordered_json events = nlohmann::ordered_json::array();
@@ -99,6 +101,7 @@ void run(options& o) {
   std::size_t tracks = 0;
   bool left_out = false;
   while (source.read(e, truth)) {
+    interruption::throw_if_received();
     if (e.number < o.first) continue;
     left_out = static_cast<long>(events.size()) == o.events;
     if (left_out) break;

@@ -3,21 +3,23 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <cstddef>
 #include <exception>
 #include <filesystem>
 #include <optional>
 #include <stdexcept>
 #include <string>
 #include <system_error>
-#include <utility>
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 #include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/info.h>
 #include <oneapi/tbb/task_arena.h>
 #include <CLI/CLI.hpp>
 
 #include <scifi/chain/reconstruction.hpp>
+#include <scifi/core/pack.hpp>
 #include <scifi/geometry/mice.hpp>
 #include <scifi/io/any_geometry.hpp>
 #include <scifi/track_model/nystrom_propagator.hpp>
@@ -25,8 +27,13 @@
 
 #include "conditions/stored_conditions.hpp"
 #include "field/chosen_field.hpp"
+#include "reconstruct/check_sum.hpp"
+#include "reconstruct/event_block.hpp"
 #include "reconstruct/event_pipeline.hpp"
 #include "reconstruct/monitor.hpp"
+#include "reconstruct/ranks.hpp"
+#include "reconstruct/run_on_ranks.hpp"
+#include "reconstruct/track_tables.hpp"
 #include "run_program.hpp"
 
 namespace {
@@ -40,6 +47,7 @@ struct options {
   chosen_field field;
   double min_npe = 2.0, momentum = 200.0;
   int threads = 0;
+  bool resume = false;
 };
 
 /// A particle by its name; a name without a sign means the positive one, for the beam of MICE is.
@@ -71,7 +79,21 @@ void check(const options& o) {
     require(o.watch.path().empty() || out.empty() || !same_file(o.watch.path(), out), "--monitor: the same file as another output");
 }
 
-void print_summary(const options& o, const totals& sum, const scifi::particle& hypothesis, int threads, double seconds) {
+/// What the results depend on besides the digits.
+nlohmann::ordered_json settings_of(const options& o) {
+  std::error_code none;
+  const auto content = [](const std::string& file) { return fmt::format("a file of check sum {:08x}", check_sum::of(file).check); };
+  return {{"the program", fmt::format("{}, {} tracks at a time", scifi::version, scifi::native_lanes<double>)},
+          {"--geometry", o.geometry.empty() ? "the MICE trackers" : content(o.geometry)},
+          {"--field", o.field.given() + (fs::is_regular_file(o.field.file(), none) ? ", " + content(o.field.file()) : "")},
+          {"--particle", o.particle},
+          {"--min-npe", o.min_npe},
+          {"--momentum", o.momentum},
+          {"--track-points", !o.track_points.empty()},
+          {"--monitor", !o.watch.path().empty()}};
+}
+
+void print_summary(const options& o, const totals& sum, long before, const scifi::particle& hypothesis, const std::string& processors, double seconds) {
   // Standard output may be where the tracks go.
   std::FILE* const out = o.output.starts_with("/dev/") || o.track_points.starts_with("/dev/") ? stderr : stdout;
   const auto row = [out](const char* name, long count, const std::string& remark = "") { fmt::print(out, "{:<16}{:>12}{}\n", name, count, remark); };
@@ -79,7 +101,7 @@ void print_summary(const options& o, const totals& sum, const scifi::particle& h
   fmt::print(out, "{:<16}{}, {}, {}\n", "read", o.digits, o.geometry.empty() ? "MICE trackers as surveyed" : o.stored.origin(o.geometry),
              o.field.none() ? fmt::format("no field, straight lines at {} MeV/c, mass of {}", o.momentum, hypothesis.name)
                             : fmt::format("{}, helices, mass of {}", o.field.description(), hypothesis.name));
-  row("events", sum.events);
+  row("events", sum.events, before > 0 ? fmt::format("   {} of them before this run", before) : "");
   row("digits", sum.digits);
   row("clusters", sum.clusters);
   row("space points", sum.space_points);
@@ -88,78 +110,112 @@ void print_summary(const options& o, const totals& sum, const scifi::particle& h
   row("failures", sum.failures);
   row("events flagged", sum.flagged,
       fmt::format("   combinations limited {}, fit failed {}", sum.combinations_limited, sum.fit_failed));
-  fmt::print(out, "{:<16}{:>12.3f} s, {:.0f} events/s, {} thread{}\n", "time", seconds, static_cast<double>(sum.events) / seconds, threads,
-             threads == 1 ? "" : "s");
+  fmt::print(out, "{:<16}{:>12.3f} s, {:.0f} events/s, {}\n", "time", seconds, static_cast<double>(sum.events - before) / seconds, processors);
   fmt::print(out, "{:<16}reconstruction {:.1f} us, on one thread\n", "time per event",
              std::chrono::duration<double, std::micro>(sum.reconstruction).count() / static_cast<double>(std::max(sum.events, 1L)));
   fmt::print(out, "{:<16}{}{}\n", "written", o.output, o.track_points.empty() ? "" : ", " + o.track_points);
 }
 
-/// Keeps what was reconstructed before the input went bad, and says so.
-void keep_partial(scifi::atomic_file& tracks, std::optional<scifi::atomic_file>& points, const totals& sum) {
-  if (sum.events == 0) return;
-  std::string names = tracks.keep_partial();
-  if (points) names += ", " + points->keep_partial();
-  fmt::print(stderr, "scifi-reconstruct: the {} tracks of the {} events before the mistake are kept in {}\n", sum.tracks, sum.events, names);
+void say(const std::string& what) {
+  if (!what.empty()) fmt::print(stderr, "scifi-reconstruct: {}\n", what);
 }
 
-template <class Reconstruction>
-void write_tracks(options& o, const scifi::detector& detector, const scifi::particle& hypothesis, std::chrono::steady_clock::time_point start,
-                  const Reconstruction& reconstruct) {
-  event_source source(o.digits, detector);
-  scifi::atomic_file tracks(o.output);
-  std::optional<scifi::atomic_file> points;
-  if (!o.track_points.empty()) points.emplace(o.track_points);
-  tracks.write(scifi::track_columns);
-  if (points) points->write(scifi::track_point_columns);
-
-  o.watch.start(detector, o.digits);
-  const int threads = o.threads > 0 ? o.threads : tbb::info::default_concurrency();
-  const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
-  tbb::task_arena arena(threads);
-  progress display(source.file().size());
-  const pipeline_result result = arena.execute([&] { return run_pipeline(source, reconstruct, tracks, points, threads, display, o.watch); });
-  display.clear();
-  if (result.reading_stopped) {
+/// Everything is read, or reading was stopped: gives the tables their names, or keeps what there is and throws.
+void finish(track_tables& tables, const block_reader& reader) {
+  if (interruption::received() != 0) {
+    const std::string kept = tables.keep("signal");
+    throw kept.empty() ? interruption::interrupted() : interruption::interrupted(kept);
+  }
+  if (reader.mistake()) {
     try {
-      std::rethrow_exception(result.reading_stopped);
+      std::rethrow_exception(reader.mistake());
     } catch (const scifi::input_error&) {
-      keep_partial(tracks, points, result.sum);
+      say(tables.keep("mistake"));
       throw;
     }
   }
-  // The points first: where the tracks are, everything is.
-  if (points) points->commit();
-  tracks.commit();
-  o.watch.end("done");
-  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  print_summary(o, result.sum, hypothesis, threads, seconds);
+  tables.commit();
 }
 
-void run(options& o) {
-  const auto start = std::chrono::steady_clock::now();
+template <class Reconstruction>
+void write_tracks(options& o, const ranks& all, const scifi::detector& detector, const scifi::particle& hypothesis, std::chrono::steady_clock::time_point start,
+                  const Reconstruction& reconstruct) {
+  const monitor::counts counts = o.watch.counts_of(detector);
+  if (!all.leads()) {
+    on_ranks::follow(all, reconstruct, !o.track_points.empty(), counts);
+    return;
+  }
+  on_ranks::workers others(all);
+  interruption::listen();
+  event_source source(o.digits, detector);
+  o.watch.prepare(detector);
+  track_tables tables(o.output, o.track_points, settings_of(o), o.resume, o.watch);
+  block_reader reader(source);
+  const long before = tables.sum().events;
+  if (const auto& last = tables.resumed()) reader.skip(last->sum.events, last->input_check);
+  if (o.resume) say(before > 0 ? fmt::format("goes on after {} events", before) : "nothing to go on with: from the beginning");
+  o.watch.start(o.digits);
+  const int threads = o.threads > 0 ? o.threads : tbb::info::default_concurrency();
+  progress display(source.file().size());
+  try {
+    if (all.size() > 1) {
+      on_ranks::lead(others, all, reader, reconstruct, tables, display, counts);
+    } else {
+      const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
+      tbb::task_arena(threads).execute([&] { run_pipeline(reader, reconstruct, tables, threads, display, counts); });
+    }
+  } catch (const interruption::interrupted&) {
+    // What is written is in order: `finish` keeps it.
+  } catch (...) {
+    display.clear();
+    if (tables.saved()) say("what was written before is kept; --resume goes on from there");
+    throw;
+  }
+  display.clear();
+  finish(tables, reader);
+  o.watch.end("done");
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  print_summary(o, tables.sum(), before, hypothesis, all.size() > 1 ? fmt::format("{} ranks", all.size()) : fmt::format("{} thread{}", threads, threads == 1 ? "" : "s"), seconds);
+}
+
+/// What a reconstruction needs besides the digits.
+struct setup {
+  scifi::particle hypothesis;
+  scifi::detector detector = scifi::mice::trackers();
+  std::optional<scifi::any_geometry> geometry;
+  scifi::reconstruction_options choice;
+};
+
+setup prepare(options& o, const ranks& all) {
+  all.check_build();
   o.stored.fill_in(o.geometry, scifi::condition_kind::geometry);
   check(o);
-  const scifi::particle hypothesis = hypothesis_named(o.particle);
-  scifi::detector detector = scifi::mice::trackers();
-  scifi::reconstruction_options choice{.hypothesis = hypothesis, .min_npe = o.min_npe, .line_momentum = o.momentum, .fibre = {}};
-  std::optional<scifi::any_geometry> geometry;
+  if (all.size() > 1 && o.threads > 1) throw std::invalid_argument("--threads: under mpirun every rank is one thread; start more ranks");
+  setup out{.hypothesis = hypothesis_named(o.particle), .geometry = {}, .choice = {}};
+  out.choice = {.hypothesis = out.hypothesis, .min_npe = o.min_npe, .line_momentum = o.momentum, .fibre = {}};
   if (!o.geometry.empty()) {
-    geometry = scifi::read_any_geometry(o.geometry);
-    for (const std::string& note : geometry->notes) fmt::print(stderr, "note: {}\n", note);
-    detector = geometry->detector;
-    choice.fibre = geometry->fibre;
+    out.geometry = scifi::read_any_geometry(o.geometry);
+    for (const std::string& note : out.geometry->notes) fmt::print(stderr, "note: {}\n", note);
+    out.detector = out.geometry->detector;
+    out.choice.fibre = out.geometry->fibre;
   }
-  o.field.resolve(detector, geometry ? &*geometry : nullptr);
+  o.field.resolve(out.detector, out.geometry ? &*out.geometry : nullptr);
+  return out;
+}
+
+void run(options& o, const ranks& all) {
+  const auto start = std::chrono::steady_clock::now();
+  std::optional<setup> with;
+  all.together([&] { with = prepare(o, all); });
   if (o.field.mapped())
-    write_tracks(o, detector, hypothesis, start, scifi::make_reconstruction(detector, choice, [&o](const scifi::tracker& t) {
+    write_tracks(o, all, with->detector, with->hypothesis, start, scifi::make_reconstruction(with->detector, with->choice, [&o](const scifi::tracker& t) {
                    // A thousandth of the resolution of a plane is lost at most.
                    constexpr scifi::nystrom_options steps{1e-2};
                    const tracker_field& f = o.field.in(t);
                    return scifi::tracker_flight<scifi::nystrom_propagator<scifi::field_map>>{{*f.map, steps}, f.mean};
                  }));
   else
-    write_tracks(o, detector, hypothesis, start, scifi::make_reconstruction(detector, choice, [&o](const scifi::tracker& t) {
+    write_tracks(o, all, with->detector, with->hypothesis, start, scifi::make_reconstruction(with->detector, with->choice, [&o](const scifi::tracker& t) {
                    const double field = o.field.in(t).mean;
                    return scifi::tracker_flight<scifi::helix_propagator>{{field}, field};
                  }));
@@ -168,6 +224,7 @@ void run(options& o) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  const ranks all(argc, argv);
   options o;
   CLI::App app{"Reconstructs tracks from the digits of scintillating-fibre trackers. Units: mm, ns, MeV, MeV/c, tesla; tracker frame."};
   app.add_option("DIGITS", o.digits, "digits: CSV with the columns event, tracker, station, plane, channel, npe, or MICE JSON (.json); may be gzip")
@@ -181,6 +238,9 @@ int main(int argc, char** argv) {
   app.add_option("--output", o.output, "tracks, CSV")->capture_default_str();
   app.add_option("--track-points", o.track_points, "the tracks at every plane, CSV; not written unless given");
   app.add_option("--threads", o.threads, "number of threads; 0: all cores. The output does not depend on it")->capture_default_str();
+  app.add_flag("--resume", o.resume, "go on where an earlier run with the same options was stopped, be it killed; from the beginning where there is none");
   o.watch.offer(app);
-  return run_program("scifi-reconstruct", app, argc, argv, [&o] { run(o); });
+  const int status = run_program("scifi-reconstruct", app, argc, argv, [&] { run(o, all); });
+  if (all.size() > 1 && interruption::received() != 0) ranks::abort(status);
+  return status;
 }

@@ -31,6 +31,7 @@
 #include "simulate/chosen_flight.hpp"
 #include "simulate/make_event.hpp"
 #include "simulate/tables.hpp"
+#include "interruption.hpp"
 #include "run_program.hpp"
 
 namespace {
@@ -142,6 +143,7 @@ void run(options& o) {
   digitise.dead = o.dead_channels.empty() ? scifi::drawn_dead_channels(detector, o.dead_share, o.seed)
                                           : scifi::dead_channels(scifi::read_channel_list(o.dead_channels, detector));
 
+  interruption::listen();
   std::deque<scifi::atomic_file> files;
   const std::size_t written = o.hits ? simulate::tables : simulate::hits;
   for (std::size_t i = 0; i < written; ++i) files.emplace_back(o.output + "_" + simulate::names[i] + ".csv").write(simulate::headers[i]);
@@ -154,6 +156,7 @@ void run(options& o) {
   std::vector<simulate::simulated_event> made(static_cast<std::size_t>(std::min(block, std::max(events, 1L))));
   simulate::totals sum;
   for (long first = 0; first < events; first += block) {
+    interruption::throw_if_received();
     const long count = std::min(block, events - first);
     tbb::parallel_for(0L, count, [&](long i) { simulate::make_event(lines, beam, digitise, {o.seed, o.hits}, first + i, made[static_cast<std::size_t>(i)]); });
     for (long i = 0; i < count; ++i) {

@@ -20,6 +20,7 @@
 #include <scifi/io/atomic_file.hpp>
 #include <scifi/version.hpp>
 
+#include "interruption.hpp"
 #include "run_program.hpp"
 #include "study/comparison.hpp"
 #include "study/displays.hpp"
@@ -83,6 +84,7 @@ whole_study fill(const options& o, const scifi::detector& detector, const scifi:
   for (const scifi::tracker& t : detector.trackers) out.trackers.emplace(t.id, one_tracker{tracker_results(t, o.study)});
   scifi::study_program::event_files e;
   while (input.next(e)) {
+    interruption::throw_if_received();
     e.crossings.empty() ? ++out.without_truth : ++out.events;
     if (!o.digits.empty()) front(e.seen);
     for (const scifi::tracker& t : detector.trackers) {
@@ -176,6 +178,7 @@ void run(options& o) {
   std::error_code none;
   if (!o.before.empty() && fs::equivalent(o.before, target, none)) throw std::invalid_argument(o.before + ": would overwrite what is read");
   const json before = o.before.empty() ? json() : scifi::study_program::read_study(o.before);
+  interruption::listen();
   const json result = to_json(o, fill(o, detector, fibre), before);
 
   fs::create_directories(folder, none);

@@ -45,7 +45,7 @@ UMBRELLAS = {
 }
 # third-party headers, by folder; everywhere else Eigen is the only one
 EIGEN = ("Eigen/", "unsupported/Eigen/")
-THIRD_PARTY = {"io": EIGEN + ("nlohmann/", "zlib.h", "fcntl.h", "unistd.h"),
+THIRD_PARTY = {"io": EIGEN + ("nlohmann/", "zlib.h", "fcntl.h", "sys/file.h", "sys/stat.h", "unistd.h"),
                "conditions": EIGEN + ("sqlite3.h",),
                "study": EIGEN + ("boost/histogram/",)}
 # headers of the standard library with a slash or a suffix in their name

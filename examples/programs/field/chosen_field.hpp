@@ -70,6 +70,9 @@ class chosen_field {
   [[nodiscard]] const std::string& file() const { return given_; }  // a number or 'coils' is no file that exists
   [[nodiscard]] const tracker_field& in(const scifi::tracker& t) const { return fields_[static_cast<std::size_t>(std::find(ids_.begin(), ids_.end(), t.id) - ids_.begin())]; }
 
+  /// As it was asked for.
+  [[nodiscard]] std::string given() const { return given_.empty() ? description() : given_ == "coils" || number_in(given_) ? given_ : "a map, outside " + outside_; }
+
   /// "3 T", or the map and its mean in each tracker.
   [[nodiscard]] std::string description() const {
     if (!mapped_) return fmt::format("{} T", uniform_ / scifi::units::tesla);

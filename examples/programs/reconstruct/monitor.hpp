@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: MPL-2.0
 #pragma once
 
+#include <optional>
+#include <span>
 #include <string>
+#include <vector>
 
 #include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
 
 #include <scifi/event/event.hpp>
 #include <scifi/geometry/tracker.hpp>
@@ -14,12 +18,11 @@
 #include <cstdio>
 #include <exception>
 #include <mutex>
-#include <optional>
+#include <stdexcept>
 #include <thread>
 #include <utility>
 
 #include <fmt/format.h>
-#include <oneapi/tbb/enumerable_thread_specific.h>
 
 #include <scifi/io/atomic_file.hpp>
 #include <scifi/io/html_page.hpp>
@@ -28,31 +31,13 @@
 #include "reconstruct/monitor_json.hpp"
 #include "shared_page.hpp"
 
-/// Watches a reconstruction: histograms in a page that is written anew every few seconds, by a thread of its own, and replaced whole. Every thread fills its own histograms. The page takes
-/// the new histograms over by itself. A page that cannot be written any more is reported once and does not stop the reconstruction.
+/// Watches a reconstruction: histograms in a page that is written anew every few seconds, by a thread of its own, and replaced whole. Every block of events has
+/// histograms of its own, added when it is written. The page takes the new histograms over by itself. A page that cannot be written any more is reported
+/// once and does not stop the reconstruction.
 class monitor {
  public:
-  /// Histograms of a thread, and who may touch them.
-  struct of_thread {
-    explicit of_thread(const scifi::detector& d) : seen(d) {}
-    of_thread(const of_thread& other) : seen(other.seen) {}
-    std::mutex mutex;
-    scifi::study::monitor_histograms seen;
-  };
-  /// The calling thread's, held as long as this lives: for a block of events.
-  class watcher {
-   public:
-    explicit watcher(of_thread* where) : where_(where) {
-      if (where_ != nullptr) lock_ = std::unique_lock(where_->mutex);
-    }
-    void add(const scifi::event& e) {
-      if (where_ != nullptr) where_->seen.add(e);
-    }
-
-   private:
-    of_thread* where_;
-    std::unique_lock<std::mutex> lock_;
-  };
+  /// Histograms of a block of events; nothing without --monitor.
+  using counts = std::optional<scifi::study::monitor_histograms>;
 
   monitor() = default;
   monitor(const monitor&) = delete;
@@ -66,19 +51,41 @@ class monitor {
   }
   [[nodiscard]] const std::string& path() const { return path_; }
 
-  /// Writes the first page; nothing without --monitor. Throws std::runtime_error when the page to write into is not installed, scifi::input_error when
-  /// it cannot be written.
-  void start(const scifi::detector& d, std::string input) {
+  /// Empty histograms, for a block of events.
+  [[nodiscard]] counts counts_of(const scifi::detector& d) const { return path_.empty() ? counts() : counts(d); }
+
+  /// What `contents` gave in an earlier run. Throws scifi::input_error where it does not fit. After `prepare`.
+  void set(const nlohmann::ordered_json& contents) {
+    if (!seen_) return;
+    seen_.emplace(*detector_);
+    if (!seen_->add_contents(contents.get<std::vector<double>>())) throw std::invalid_argument("--resume: the histograms are those of another detector");
+  }
+  [[nodiscard]] nlohmann::ordered_json contents() {
+    const std::scoped_lock lock(seen_mutex_);
+    return seen_ ? nlohmann::ordered_json(seen_->contents()) : nlohmann::ordered_json();
+  }
+
+  /// Gets ready to count; nothing without --monitor. Throws std::runtime_error when the page to write into is not installed.
+  void prepare(const scifi::detector& d) {
     if (path_.empty()) return;
     page_ = shared_page("monitor.html");
     detector_ = d;
+    seen_ = counts_of(d);
+  }
+  /// Writes the first page. Throws scifi::input_error when it cannot be written.
+  void start(std::string input) {
+    if (path_.empty()) return;
     input_ = std::move(input);
-    threads_.emplace([this] { return of_thread(*detector_); });
     write("running");
     writer_ = std::thread([this] { keep_writing(); });
   }
 
-  [[nodiscard]] watcher watch() { return watcher(detector_ ? &threads_->local() : nullptr); }
+  /// Adds what was seen in a block.
+  void add(const counts& block) {
+    if (!block || !seen_) return;
+    const std::scoped_lock lock(seen_mutex_);
+    *seen_ += *block;
+  }
 
   /// Writes the last page. Later calls do nothing.
   void end(const std::string& state) {
@@ -115,11 +122,10 @@ class monitor {
   }
 
   void write(const std::string& state) {
-    scifi::study::monitor_histograms seen(*detector_);
-    for (of_thread& t : *threads_) {
-      const std::scoped_lock lock(t.mutex);
-      seen += t.seen;
-    }
+    const scifi::study::monitor_histograms seen = [this] {
+      const std::scoped_lock lock(seen_mutex_);
+      return *seen_;
+    }();
     const double elapsed = std::chrono::duration<double>(clock::now() - begin_).count();
     const double now = std::chrono::duration<double>(std::chrono::system_clock::now().time_since_epoch()).count();
     const monitor_json::json status = {{"state", state},     {"input", input_},      {"events", seen.events()}, {"elapsed_s", elapsed},
@@ -135,7 +141,8 @@ class monitor {
   clock::time_point begin_ = clock::now();
   std::mutex mutex_;
   std::condition_variable wake_;
-  std::optional<tbb::enumerable_thread_specific<of_thread>> threads_;
+  std::mutex seen_mutex_;
+  counts seen_;  // under seen_mutex_
   bool ended_ = false;   // under the mutex
   bool failed_ = false;  // of the thread that writes
   long pages_ = 0;
@@ -145,13 +152,21 @@ class monitor {
 /// Without scifi::study there is nothing to watch with.
 class monitor {
  public:
-  struct watcher {
+  struct nothing {
+    void clear() {}
     void add(const scifi::event&) {}
+    [[nodiscard]] std::vector<double> contents() const { return {}; }
+    [[nodiscard]] bool add_contents(std::span<const double>) const { return true; }
   };
+  using counts = std::optional<nothing>;
   void offer(CLI::App&) {}
   [[nodiscard]] std::string path() const { return {}; }
-  void start(const scifi::detector&, const std::string&) {}
-  [[nodiscard]] watcher watch() { return {}; }
+  [[nodiscard]] counts counts_of(const scifi::detector&) const { return {}; }
+  void set(const nlohmann::ordered_json&) {}
+  [[nodiscard]] nlohmann::ordered_json contents() const { return {}; }
+  void prepare(const scifi::detector&) {}
+  void start(const std::string&) {}
+  void add(const counts&) {}
   void end(const std::string&) {}
 };
 #endif

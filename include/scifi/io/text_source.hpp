@@ -13,13 +13,14 @@
 #include <system_error>
 #include <vector>
 
+#include <unistd.h>
 #include <zlib.h>
 
 #include <scifi/io/input_error.hpp>
 
 namespace scifi {
 
-/// The bytes of a file, read once from front to back in big blocks. A file that begins with the gzip magic number is unpacked, whatever
+/// The bytes of a file, read once from front to back in big blocks, of a pipe as they come. A file that begins with the gzip magic number is unpacked, whatever
 /// its name; several gzip members in a row are one text. Memory does not depend on the length of the file. Not copyable, not for sharing.
 class text_source {
  public:
@@ -30,6 +31,7 @@ class text_source {
     const std::uintmax_t bytes = std::filesystem::is_regular_file(path, none) ? std::filesystem::file_size(path, none) : 0;
     if (bytes > 0 && !none) size_ = bytes;
     fill();
+    if (available_ == 1) read_some();
     constexpr unsigned char first = 0x1f;
     constexpr unsigned char second = 0x8b;
     compressed_ = available_ >= 2 && input_[0] == first && input_[1] == second;
@@ -72,8 +74,14 @@ class text_source {
 
   void fill() {
     position_ = 0;
-    available_ = std::fread(input_.data(), 1, input_.size(), file_.get());
-    if (available_ == 0 && std::ferror(file_.get()) != 0) fail(std::string("cannot be read: ") + std::strerror(errno));
+    available_ = 0;
+    read_some();
+  }
+  /// What a pipe holds now is enough: what is written into it bit by bit is read so.
+  void read_some() {
+    const ssize_t n = ::read(::fileno(file_.get()), input_.data() + available_, input_.size() - available_);
+    if (n < 0) fail(std::string("cannot be read: ") + std::strerror(errno));
+    available_ += static_cast<std::size_t>(n);
   }
   void take(std::size_t n) {
     position_ += n;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -149,6 +150,27 @@ class monitor_histograms {
   void clear() {
     events_ = 0;
     for (tracker_histograms& t : trackers_) t.each([](counts& h) { h.reset(); });
+  }
+
+  /// The number of events and every bin, under- and overflow too, in a fixed order: for another process.
+  [[nodiscard]] std::vector<double> contents() {
+    std::vector<double> out{static_cast<double>(events_)};
+    for (tracker_histograms& t : trackers_)
+      t.each([&out](counts& h) { out.insert(out.end(), h.begin(), h.end()); });
+    return out;
+  }
+  /// Adds what `contents` gave of histograms of the same detector. False, and nothing added, where their number is another.
+  [[nodiscard]] bool add_contents(std::span<const double> more) {
+    std::size_t size = 1;
+    for (tracker_histograms& t : trackers_) t.each([&size](counts& h) { size += h.size(); });
+    if (more.size() != size) return false;
+    events_ += static_cast<long>(more.front());
+    std::size_t at = 1;
+    for (tracker_histograms& t : trackers_)
+      t.each([&](counts& h) {
+        for (auto&& bin : h) bin += more[at++];
+      });
+    return true;
   }
 
   [[nodiscard]] long events() const { return events_; }

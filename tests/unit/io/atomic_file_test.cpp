@@ -53,6 +53,36 @@ TEST_CASE("a partial file is kept when asked for", "[io]") {
   CHECK_FALSE(fs::exists(folder / "out.csv"));
 }
 
+TEST_CASE("another writer goes on with what is kept of a partial file", "[io]") {
+  const temporary_folder folder;
+  {
+    atomic_file file(folder / "out.csv");
+    file.write("abcdef");
+    file.keep_if_abandoned();
+  }
+  CHECK(content_of(atomic_file::partial_of(folder / "out.csv")) == "abcdef");
+  CHECK(message_of<input_error>([&] { atomic_file file(folder / "out.csv", 7); }).find("out.csv.partial is shorter than what is to be kept of it") != std::string::npos);
+  CHECK(content_of(folder / "out.csv.partial") == "abcdef");
+  {
+    atomic_file file(folder / "out.csv", 4);
+    file.write("x");
+    file.commit();
+  }
+  CHECK(content_of(folder / "out.csv") == "abcdx");
+  atomic_file(folder / "out.csv", 0).commit();
+  CHECK(content_of(folder / "out.csv").empty());
+}
+
+TEST_CASE("a file that is being written is not written by another one", "[io]") {
+  const temporary_folder folder;
+  atomic_file file(folder / "out.csv");
+  file.write("abc");
+  CHECK(message_of<input_error>([&] { atomic_file other(folder / "out.csv"); }).find("out.csv: cannot be written: another process is writing ") != std::string::npos);
+  file.commit();
+  CHECK(content_of(folder / "out.csv") == "abc");
+  atomic_file(folder / "out.csv").commit();
+}
+
 TEST_CASE("a symbolic link is written through", "[io]") {
   const temporary_folder folder;
   const auto target = folder.file("target", "old");

@@ -30,6 +30,7 @@ TEST_CASE("a line is split at its commas", "[io]") {
   CHECK(split(" a ,\tb b, ") == strings{"a", "b b", ""});
   CHECK(split(R"("a","b,c" , "d""e")") == strings{"a", "b,c", R"(d""e)"});
   CHECK(split(R"("a,b)") == strings{R"("a,b)"});
+  CHECK(split(R"( a,b", c,d",e)") == strings{"a", R"(b", c,d")", "e"});
 }
 
 TEST_CASE("columns are found by name in any order, the others are ignored", "[io]") {

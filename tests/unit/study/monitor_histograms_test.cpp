@@ -109,3 +109,18 @@ TEST_CASE("histograms filled apart and merged are those filled together; cleared
   auto emptied = sum.trackers()[1];
   emptied.each([](const study::counts& h) { CHECK(total(h) == 0.0); });
 }
+
+TEST_CASE("histograms that came from another process as numbers are those histograms", "[study]") {
+  const scifi::detector d = scifi::mice::trackers();
+  study::monitor_histograms there(d), here(d);
+  there.add(event_of_tracker_1());
+  here.add(event_of_tracker_1());
+  REQUIRE(here.add_contents(there.contents()));
+  there.add(event_of_tracker_1());
+  CHECK(here.contents() == there.contents());
+  CHECK(here.events() == 2);
+  std::vector<double> other = there.contents();
+  other.pop_back();
+  CHECK_FALSE(here.add_contents(other));
+  CHECK(here.events() == 2);
+}
