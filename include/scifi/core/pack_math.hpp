@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <limits>
+#include <type_traits>
 
 #include <scifi/core/pack.hpp>
 
@@ -60,10 +61,11 @@ template <class T, int Lanes>
   using vec = typename scalar::vector_type;
   using layout = detail::layout<T>;
   // x = 2^e m with m between sqrt(1/2) and sqrt(2): the exponent of x / sqrt(1/2), and what is left.
-  const bits raw = reinterpret_cast<bits>(x.v);
-  const bits from = reinterpret_cast<bits>(scalar(0.70710678118654752440).v);
-  const bits exponent = (raw - from) >> layout::mantissa;
-  const scalar m(reinterpret_cast<vec>(raw - (exponent << layout::mantissa)));
+  using wrapping = typename detail::lanes_of<std::make_unsigned_t<detail::lane_bits<T>>, Lanes>::type;  // a negative x may pass the ends
+  const wrapping raw = reinterpret_cast<wrapping>(x.v);
+  const wrapping from = reinterpret_cast<wrapping>(scalar(0.70710678118654752440).v);
+  const bits exponent = reinterpret_cast<bits>(raw - from) >> layout::mantissa;
+  const scalar m(reinterpret_cast<vec>(raw - (reinterpret_cast<wrapping>(exponent) << layout::mantissa)));
   const scalar shift(layout::shift);
   const scalar e = scalar(reinterpret_cast<vec>(reinterpret_cast<bits>(shift.v) + exponent)) - shift;
   // log m = 2 artanh(s), s = (m - 1)/(m + 1), |s| < 0.1716 (DLMF 4.6.4); the first term is taken out so that it is exact near m = 1.

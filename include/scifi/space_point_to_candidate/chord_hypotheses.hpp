@@ -57,7 +57,7 @@ class chord_hypotheses {
     const planar<double> product = conjugate(first) * second;
     const double angle = -std::atan2(product.y, product.x);  // w half, modulo a turn; half a turn off where one of the chords has passed a whole turn
     constexpr double most_turns = 100.0;
-    const int turns = static_cast<int>(std::fmin(std::ceil(largest_ * half / (2.0 * constants::pi)), most_turns));
+    const int turns = static_cast<int>(std::fmax(std::fmin(std::ceil(largest_ * half / (2.0 * constants::pi)), most_turns), 0.0));
     const int step = largest_ * std::max(step1_, step2_) < 2.0 * constants::pi ? 2 : 1;
     for (int n = -2 * turns; n <= 2 * turns; n += step) {
       const double w = (angle + n * constants::pi) / half;
