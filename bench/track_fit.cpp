@@ -21,7 +21,7 @@
 #include <scifi/material/scattering.hpp>
 #include <scifi/material/straggling.hpp>
 
-#include "support/textbook.hpp"
+#include "support/textbook_unit.hpp"
 
 namespace {
 
@@ -272,37 +272,11 @@ void check_fits() {
   check(worst < 1e-3, "the smoothers differ");
 }
 
-/// The unit of every figure: a textbook step of five components and one measured value, each on its own dense constant matrices.
-void textbook_unit(benchmark::State& state) {
-  using square = scifi::matrix<double, 5, 5>;
-  std::mt19937_64 engine(51);
-  std::normal_distribution<double> normal;
-  square f, b;
-  scifi::matrix<double, 1, 5> h;
-  for (int i = 0; i < 25; ++i) {
-    f.data()[i] = normal(engine);
-    b.data()[i] = normal(engine);
-  }
-  for (int i = 0; i < 5; ++i) h(i) = normal(engine);
-  f *= 0.95 / f.norm();
-  const square q = 0.1 * (b * b.transpose() + square::Identity());
-  const scifi::matrix<double, 1, 1> r = scifi::matrix<double, 1, 1>::Constant(1.5);
-  constexpr int steps = 64;
-  std::vector<scifi::vector<double, 1>> z(steps);
-  for (auto& value : z) value(0) = normal(engine);
-  for (auto _ : state) {
-    textbook::knowledge<scifi::vector<double, 5>, square> e{scifi::vector<double, 5>::Zero(), square::Identity()};
-    for (const auto& value : z) textbook::plain_step(e, f, q, h, r, value);
-    benchmark::DoNotOptimize(e);
-  }
-  state.counters["ns"] = benchmark::Counter(static_cast<double>(state.iterations()) * steps * 1e-9, benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
-}
-
 }  // namespace
 
 int main(int argc, char** argv) {
   check_fits();
-  benchmark::RegisterBenchmark("textbook", textbook_unit);
+  benchmark::RegisterBenchmark("textbook", textbook::unit);
   add_all("vacuum", vacuum);
   add_all("material", material);
   if (!all_right) return 1;

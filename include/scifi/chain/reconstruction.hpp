@@ -34,7 +34,7 @@ struct tracker_stages {
 template <class ClusterFinder, class SpacePointFinder, class CandidateFinder, class TrackFitter>
 class reconstruction {
  public:
-  using stages = tracker_stages<CandidateFinder, TrackFitter>;
+  using stages = scifi::tracker_stages<CandidateFinder, TrackFitter>;
 
   /// Memory that the stages work in. Handed in again it stops growing, and reconstruction no longer allocates.
   struct buffers {
@@ -86,6 +86,9 @@ class reconstruction {
   [[nodiscard]] const detector& where() const { return where_; }
   /// The stages of each tracker, in the order of the detector's.
   [[nodiscard]] const std::vector<stages>& trackers() const { return trackers_; }
+  /// The stages before those, shared by all trackers.
+  [[nodiscard]] const ClusterFinder& clusters() const { return find_clusters_; }
+  [[nodiscard]] const SpacePointFinder& space_points() const { return find_points_; }
 
  private:
   /// Fits what was found in one tracker in all events, and appends it to them.
