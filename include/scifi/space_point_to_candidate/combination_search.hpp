@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -52,6 +53,7 @@ class combination_search {
   void operator()(int size, bool tight) {
     gate_ = tight ? options_.tight_gate : options_.gate;
     chi2_per_ndf_ = tight ? options_.tight_chi2_per_ndf : options_.chi2_per_ndf;
+    point_chi2_ = tight ? options_.tight_point_chi2 : std::numeric_limits<double>::infinity();
     collect_free();
     work_.found.clear();
     choose_stations(0, size);
@@ -65,7 +67,7 @@ class combination_search {
     for (auto& list : work_.points) list.clear();
     for (std::size_t i = 0; i < points_.size(); ++i) {
       const space_point& p = points_[i];
-      if (p.tracker != where_.id) continue;
+      if (p.tracker != where_.id || p.chi2 > point_chi2_) continue;
       // A point with one cluster taken may be where two tracks cross; with more it belongs to the other.
       if (std::count_if(p.clusters.begin(), p.clusters.end(), [&](int c) { return work_.cluster_used[static_cast<std::size_t>(c)] != 0; }) > 1) continue;
       const auto at = std::find(where_.stations.begin(), where_.stations.end(), p.station);
@@ -232,6 +234,7 @@ class combination_search {
   long looks_;
   double gate_ = 0.0;
   double chi2_per_ndf_ = 0.0;
+  double point_chi2_ = 0.0;
   inline_vector<int, max_stations> stations_;  // chosen, indices into where.stations
   inline_vector<int, max_stations> chosen_;    // space points
 };

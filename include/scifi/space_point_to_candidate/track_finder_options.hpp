@@ -19,6 +19,7 @@ struct track_finder_options {
   double smallest_pz = 50.0;       ///< MeV/c
   double tight_gate = 14.0;        ///< largest squared distance of a point from its prediction, two degrees of freedom (p = 9e-4) ...
   double tight_chi2_per_ndf = 3.5; ///< ... and largest chi2 of a candidate, in the first search, which clears most points away
+  double tight_point_chi2 = 9.0;   ///< ... and largest chi2 of a space point (one degree of freedom, p = 0.003): above it lie half of the false crossings
   double gate = 30.0;              ///< the same (p = 3e-7) ...
   double chi2_per_ndf = 12.0;      ///< ... in the second search, for tracks that scattered hard
   double cluster_gain = 10.0;      ///< chi2 that one cluster more is worth when candidates compete
