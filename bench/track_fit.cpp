@@ -8,19 +8,18 @@
 #include <cmath>
 #include <cstdio>
 #include <memory>
-#include <random>
 #include <string>
 #include <type_traits>
 #include <utility>
 #include <vector>
 
 #include <scifi/candidate_to_track/track_fitter.hpp>
-#include <scifi/geometry/mice.hpp>
 #include <scifi/kalman/bryson_frazier.hpp>
 #include <scifi/material/energy_loss.hpp>
 #include <scifi/material/scattering.hpp>
 #include <scifi/material/straggling.hpp>
 
+#include "support/drawn_tracks.hpp"
 #include "support/textbook_unit.hpp"
 
 namespace {
@@ -28,61 +27,9 @@ namespace {
 namespace kalman = scifi::kalman;
 using scifi::slope_state;
 
-constexpr double field = 3.0 * scifi::units::tesla;
-constexpr int tracks = 64;
-
-/// One simulated track, as pattern recognition would hand it on.
-struct simulated {
-  scifi::vector<double, 5> at_reference, seed;
-  scifi::candidate candidate;
-  std::vector<scifi::space_point> points;
-  std::vector<scifi::cluster> clusters;
-};
-
-struct sample {
-  scifi::tracker tracker = scifi::mice::trackers().trackers.back();
-  scifi::fit_path path = scifi::fit_path_of(tracker);
-  std::vector<simulated> tracks;
-
-  sample() {
-    std::mt19937_64 engine(2027);
-    std::normal_distribution<double> normal;
-    std::uniform_real_distribution<double> flat(-1.0, 1.0);
-    const scifi::helix_propagator fly{field};
-    constexpr double sigma = 0.431;  // 1.4945 mm / sqrt(12)
-    for (int t = 0; t < ::tracks; ++t) {
-      simulated s;
-      s.at_reference << 60.0 * flat(engine), 0.2 * flat(engine), 60.0 * flat(engine), 0.2 * flat(engine), 1.0 / (180.0 + 40.0 * flat(engine));
-      const double far = path.surfaces.front().z;
-      s.seed = fly.propagate(s.at_reference, far - path.z_reference).state;
-      s.candidate.tracker = tracker.id;
-      s.candidate.z = far;
-      s.candidate.seed.mean = s.seed;
-      for (const scifi::surface& at : path.surfaces) {
-        const scifi::vector<double, 5> x = fly.propagate(s.at_reference, at.z - path.z_reference).state;
-        scifi::cluster hit;
-        hit.tracker = tracker.id;
-        hit.station = at.station;
-        hit.plane = at.plane;
-        hit.alpha = at.tracker_to_alpha(x[slope_state::x], x[slope_state::y]) + sigma * normal(engine);
-        hit.variance = sigma * sigma;
-        if (s.points.empty() || s.points.back().station != hit.station) {
-          s.candidate.space_points.push_back(static_cast<int>(s.points.size()));
-          s.points.emplace_back();
-          s.points.back().station = hit.station;
-        }
-        s.points.back().clusters.push_back(static_cast<int>(s.clusters.size()));
-        s.clusters.push_back(hit);
-      }
-      tracks.push_back(s);
-    }
-  }
-};
-
-const sample& given() {
-  static const sample s;
-  return s;
-}
+using drawn::field;
+using drawn::given;
+using drawn::tracks;
 
 template <class EnergyLoss, class Scattering, class Straggling>
 struct policies {
@@ -124,7 +71,7 @@ class fits {
       group g;
       std::array<scifi::fit_job, width> jobs;
       for (std::size_t lane = 0; lane < width; ++lane) {
-        const simulated& s = given().tracks[first + lane];
+        const drawn::one_track& s = given().tracks[first + lane];
         jobs[lane] = {&s.candidate, 0, s.points, s.clusters};
         for (int i = 0; i < 5; ++i) scifi::set_lane(g.seed[i], static_cast<int>(lane), s.seed[i]);
       }
@@ -206,7 +153,7 @@ template <class Policies>
 void add_stage(const std::string& medium, const Policies& p) {
   using fitter = decltype(p.fitter());
   std::vector<scifi::fit_job> jobs;
-  for (const simulated& s : given().tracks) jobs.push_back({&s.candidate, 0, s.points, s.clusters});
+  for (const drawn::one_track& s : given().tracks) jobs.push_back({&s.candidate, 0, s.points, s.clusters});
   const auto sum_of = [](const std::vector<scifi::fitted_track>& fitted) {
     double sum = 0.0;
     for (const scifi::fitted_track& f : fitted) {
