@@ -1,0 +1,3 @@
+// SPDX-License-Identifier: MPL-2.0
+// What the compile costs are compared with: Eigen alone.
+#include <Eigen/Dense>
