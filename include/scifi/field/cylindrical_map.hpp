@@ -8,6 +8,7 @@
 #include <vector>
 
 #include <scifi/core/linalg.hpp>
+#include <scifi/core/refuse.hpp>
 #include <scifi/core/scalar.hpp>
 #include <scifi/field/concepts.hpp>
 #include <scifi/field/interpolation.hpp>
@@ -24,9 +25,9 @@ class cylindrical_map {
   /// Values with z running fastest. Throws std::invalid_argument unless r begins with 0, for a Br on the axis, and where sampled_grid does.
   cylindrical_map(const grid_axis& r, const grid_axis& z, const std::vector<point>& values, outside_map outside)
       : grid_({r, z}, values, {-1, 1}), outside_(outside) {
-    if (r.first != 0.0) throw std::invalid_argument("scifi: the radii of a cylindrical field map must begin with 0");
+    if (r.first != 0.0) detail::refuse<std::invalid_argument>("scifi: the radii of a cylindrical field map must begin with 0");
     for (std::size_t i = 0; i < z.count; ++i)
-      if (values[i][0] != 0.0) throw std::invalid_argument("scifi: the radial field of a cylindrical field map is not zero on the axis");
+      if (values[i][0] != 0.0) detail::refuse<std::invalid_argument>("scifi: the radial field of a cylindrical field map is not zero on the axis");
   }
 
   template <single_number Scalar>

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include <scifi/core/refuse.hpp>
 #include <scifi/field/grid_axis.hpp>
 
 namespace scifi {
@@ -34,12 +35,12 @@ class sampled_grid {
   sampled_grid(const std::array<grid_axis, Dimensions>& axes, const std::vector<point>& values, const std::array<int, Components>& parity = {}) : axes_(axes) {
     std::size_t points = 1, padded_points = 1;
     for (std::size_t d = Dimensions; d-- > 0;) {
-      if (axes[d].count < 3 || !(axes[d].step > 0.0)) throw std::invalid_argument("scifi: an axis of a field map needs three points or more at growing places");
+      if (axes[d].count < 3 || !(axes[d].step > 0.0)) detail::refuse<std::invalid_argument>("scifi: an axis of a field map needs three points or more at growing places");
       stride_[d] = padded_points;
       points *= axes[d].count;
       padded_points *= axes[d].count + 2;
     }
-    if (values.size() != points) throw std::invalid_argument("scifi: a field map has not as many values as points");
+    if (values.size() != points) detail::refuse<std::invalid_argument>("scifi: a field map has not as many values as points");
     std::vector<point> padded(padded_points);
     indices at{};
     for (const point& value : values) {

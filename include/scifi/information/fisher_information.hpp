@@ -68,8 +68,9 @@ struct gathered_information {
       const kalman::cholesky<Scalar, M> factor(k.residual_covariance);
       const matrix<Scalar, M, N> white = factor.template half_solve<N>(by_start);
       information += white.transpose().lazyProduct(white);
-      sensitivity -= k.weight.lazyProduct(by_start);
-      noise -= k.weight.lazyProduct(k.cross.transpose());
+      const matrix<Scalar, N, M> weight = k.weight();
+      sensitivity -= weight.lazyProduct(by_start);
+      noise -= weight.lazyProduct(k.cross.transpose());
       noise = symmetrised<Scalar, N>(noise);
       measured += M;
     }

@@ -69,18 +69,18 @@ void keep_where(const Mask& accepted, estimate<Scalar, N>& a, const estimate<Sca
 }
 
 /// Asks the gate about an update that was made; where it rejects the measurement the prior is put back and the update marked.
-template <class Gate, class E, int M>
-void apply_gate(const Gate& gate, const E& prior, basic_updated<E, M>& u) {
+template <int M, class Gate, class E, class Outcome>
+void apply_gate(const Gate& gate, const E& prior, E& posterior, Outcome& u) {
   if constexpr (!std::is_same_v<Gate, no_gate>) {
     if (!u.status.ok()) return;
     const auto accepted = gate(u.chi2, M);
     if constexpr (std::is_same_v<std::remove_cvref_t<decltype(accepted)>, bool>) {
       if (!accepted) {
-        u.posterior = prior;
+        posterior = prior;
         u.outlier = mask<typename E::scalar>(true);
       }
     } else {
-      keep_where(accepted, u.posterior, prior);
+      keep_where(accepted, posterior, prior);
       u.outlier = !accepted;
     }
   }

@@ -5,6 +5,7 @@
 #include <optional>
 #include <utility>
 
+#include <scifi/kalman/advance.hpp>
 #include <scifi/kalman/apply_gate.hpp>
 #include <scifi/kalman/factored_estimate.hpp>
 #include <scifi/kalman/gate.hpp>
@@ -62,6 +63,19 @@ class filter {
     return update_about(prior, m, &about);
   }
 
+  /// One step and the measurement at its end: `e` becomes the posterior of update(predict(e, step), m). The fastest way along, for it keeps no record of
+  /// Jacobians, residuals and their covariances. Where it fails `e` is left as it was before the part that failed.
+  template <class Estimate, class Step, class Measurement>
+  outcome<typename Estimate::scalar> advance(Estimate& e, const Step& step, const Measurement& m) const {
+    if constexpr (detail::advances_in_place<Propagator, Noise, Update, Gate, Estimate, Step, Measurement>) {
+      return detail::advance(propagator_, noise_, update_, gate_, e, step, m);
+    } else {
+      const auto u = update(predict(e, step), m);
+      e = u.posterior;
+      return {u.chi2, u.status, u.outlier};
+    }
+  }
+
   /// Filters over the sites in their order and leaves a node for each in `out` (contiguous, at least as many). Stops at the first failure.
   template <class Prior, class Sites, class Nodes>
   [[nodiscard]] auto run(const Prior& start, const Sites& sites, Nodes&& out) const {
@@ -104,7 +118,7 @@ class filter {
       return predict_into(prior, step.get(), about, arrived, end, jacobian, noise);
     } else if constexpr (detail::model_spaces_agree<Propagator, Noise>::value && detail::propagator_fits<Propagator, Scalar, N, Step>::value &&
                          detail::noise_fits<Noise, Scalar, N, Step>::value) {
-      return {step_kind::predict, advance(prior, step, about, arrived, end, jacobian, noise)};
+      return {step_kind::predict, carry(prior, step, about, arrived, end, jacobian, noise)};
     } else {
       unmoved(prior, end, jacobian, noise);  // behind an error
     }
@@ -119,7 +133,7 @@ class filter {
   }
 
   template <class Estimate, class Step, class About, class Arrived, class Square>
-  [[nodiscard]] reason advance(const Estimate& prior, const Step& step, const About& about, const Arrived& arrived, Estimate& end, Square& jacobian, Square& noise) const {
+  [[nodiscard]] reason carry(const Estimate& prior, const Step& step, const About& about, const Arrived& arrived, Estimate& end, Square& jacobian, Square& noise) const {
     using Scalar = typename Estimate::scalar;
     constexpr int N = Estimate::dimension;
     constexpr bool relinearised = !std::is_same_v<About, std::nullptr_t>;
@@ -186,11 +200,35 @@ class filter {
     return {prior, {}, {}, {}, {}};  // behind an error
   }
 
+  /// True where the posterior can be written where it is to stay: a policy that allows it, and a measurement that need not be linearised first.
+  template <class Estimate, class Measurement, class... About>
+  static constexpr bool updates_in_place = [] {
+    using Scalar = typename Estimate::scalar;
+    constexpr bool tangent = sizeof...(About) == 0 || detail::is_own_tangent<Measurement, Scalar, Estimate::dimension>;
+    return tangent && detail::corrects_in_place<Update, Gate, Estimate, Measurement>;
+  }();
+
+  template <class Estimate, class Measurement, class Node, class... About>
+  void update_into(const Estimate& prior, const Measurement& m, Node& n, const About&...) const {
+    constexpr int M = max_measurement_dimension<Measurement>;
+    const auto record = [&n](const auto& seen, const auto& k) {
+      detail::assign_bounded(n.residual, seen.residual);
+      detail::assign_bounded(n.residual_covariance, k.residual_covariance);
+      detail::assign_bounded(n.projection, seen.jacobian);
+      detail::assign_bounded(n.measurement_covariance, seen.covariance);
+    };
+    n.status = detail::correct_into(update_, prior, m, n.filtered, n.chi2, record);
+    n.measurement_dimension = M;
+    n.outlier = {};
+    detail::apply_gate<M>(gate_, prior, n.filtered, n);
+    detail::keep_absent_lanes(m, prior, n.filtered, n);
+  }
+
   template <class Estimate, class Measurement>
   [[nodiscard]] auto gated(const Estimate& prior, const Measurement& m) const -> basic_updated<Estimate, max_measurement_dimension<Measurement>> {
     basic_updated<Estimate, max_measurement_dimension<Measurement>> out = update_(prior, m);
-    detail::apply_gate(gate_, prior, out);
-    detail::keep_absent_lanes(m, prior, out);
+    detail::apply_gate<max_measurement_dimension<Measurement>>(gate_, prior, out.posterior, out);
+    detail::keep_absent_lanes(m, prior, out.posterior, out);
     return out;
   }
 

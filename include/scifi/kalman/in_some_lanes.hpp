@@ -21,11 +21,11 @@ struct in_some_lanes : Measurement {
 namespace detail {
 
 /// Puts the prior back in the lanes where nothing was measured.
-template <class Measurement, class E, int M>
-void keep_absent_lanes(const Measurement& m, const E& prior, basic_updated<E, M>& u) {
+template <class Measurement, class E, class Outcome>
+void keep_absent_lanes(const Measurement& m, const E& prior, E& posterior, Outcome& u) {
   if constexpr (requires { m.present(); }) {
     if (all_of(m.present()) || !u.status.ok()) return;
-    keep_where(m.present(), u.posterior, prior);
+    keep_where(m.present(), posterior, prior);
     u.outlier = u.outlier || !m.present();
   }
 }

@@ -3,6 +3,7 @@
 
 #include <scifi/core/linalg.hpp>
 #include <scifi/core/scalar.hpp>
+#include <scifi/kalman/each_index.hpp>
 #include <scifi/kalman/product.hpp>
 
 namespace scifi::kalman {
@@ -14,16 +15,21 @@ namespace scifi::kalman {
 template <class Scalar, int N>
 class ldl {
  public:
+  /// Of nothing yet.
+  ldl() = default;
   /// Reads the lower triangle.
-  explicit ldl(const matrix<Scalar, N, N>& a) {
+  explicit ldl(const matrix<Scalar, N, N>& a) { factorise(a); }
+
+  /// Factorises in place: a factorisation copied right after it was made would hold up the processor.
+  [[gnu::always_inline]] void factorise(const matrix<Scalar, N, N>& a) {
     const Scalar threshold = Scalar(static_cast<double>(N) * static_cast<double>(Eigen::NumTraits<Scalar>::epsilon()));
-    Scalar margin(1.0);
+    margin_ = Scalar(1.0);
     matrix<Scalar, N, N> scaled;  // L D
-    for (int j = 0; j < N; ++j) {
+    detail::each_index<N>([&](int j) __attribute__((always_inline)) {
       Scalar pivot(a(j, j));
       for (int k = 0; k < j; ++k) pivot -= scaled(j, k) * lower_(j, k);
       const Scalar above = pivot - threshold * a(j, j);
-      margin = select(above > Scalar(0.0), margin, Scalar(-1.0));
+      margin_ = select(above > Scalar(0.0), margin_, Scalar(-1.0));
       const Scalar safe = select(pivot > Scalar(0.0), pivot, Scalar(1.0));
       inverse_(j) = Scalar(1.0) / safe;
       for (int i = j + 1; i < N; ++i) {
@@ -32,8 +38,7 @@ class ldl {
         scaled(i, j) = sum;
         lower_(i, j) = sum * inverse_(j);
       }
-    }
-    margin_ = margin;
+    });
   }
 
   /// True where the matrix was positive definite to working precision.
@@ -45,17 +50,19 @@ class ldl {
   /// b = b L'^-1 (Rows x N): with columns z_k of the result, b A^-1 b' is the sum of z_k z_k' / D_k.
   template <int Rows>
   [[gnu::always_inline]] void decorrelate(matrix<Scalar, Rows, N>& b) const {
-    for (int j = 1; j < N; ++j)
+    detail::each_index<N>([&](int j) __attribute__((always_inline)) {
       for (int k = 0; k < j; ++k) detail::subtract_column<Scalar, Rows, N>(b, k, j, lower_(j, k));
+    });
   }
 
   /// b = z D^-1 L^-1 (Rows x N): with decorrelate before it, b A^-1.
   template <int Rows>
   [[gnu::always_inline]] void recombine(matrix<Scalar, Rows, N>& b, const matrix<Scalar, Rows, N>& z) const {
-    for (int j = N - 1; j >= 0; --j) {
+    detail::each_index<N>([&](int up) __attribute__((always_inline)) {
+      const int j = N - 1 - up;
       detail::set_scaled_column<Scalar, Rows, N>(b, z, j, inverse_(j));
       for (int i = j + 1; i < N; ++i) detail::subtract_column<Scalar, Rows, N>(b, i, j, lower_(i, j));
-    }
+    });
   }
 
   /// b A^-1, Rows x N.
@@ -66,17 +73,15 @@ class ldl {
     return b;
   }
 
-  /// v' A^-1 v.
-  [[nodiscard]] Scalar inverse_form(const vector<Scalar, N>& v) const {
+  /// y = L^-1 v: v' A^-1 v is the sum of y_k^2 / D_k.
+  [[nodiscard]] vector<Scalar, N> half_solve(const vector<Scalar, N>& v) const {
     vector<Scalar, N> y;
-    Scalar sum(0.0);
-    for (int i = 0; i < N; ++i) {
+    detail::each_index<N>([&](int i) __attribute__((always_inline)) {
       Scalar rest(v(i));
       for (int k = 0; k < i; ++k) rest -= lower_(i, k) * y(k);
       y(i) = rest;
-      sum += rest * rest * inverse_(i);
-    }
-    return sum;
+    });
+    return y;
   }
 
  private:

@@ -76,25 +76,34 @@ struct innovation {
 
 namespace detail {
 
-/// `compare` into an innovation that is there: the compiler keeps it in registers, which it does not with one returned from a function.
-template <class Scalar, int N, int M, class Measurement>
-[[gnu::always_inline]] inline void set_innovation(innovation<Scalar, N, M>& out, const Measurement& m, const vector<Scalar, N>& x) {
-  const vector<Scalar, M> value = as_matrix<Scalar, M, 1>(m.value());
+/// An innovation of parts that stand elsewhere.
+template <class Scalar, int N, int M>
+struct innovation_view {
+  const vector<Scalar, M>& residual;
+  const matrix<Scalar, M, N>& jacobian;
+  const matrix<Scalar, M, M>& covariance;
+};
+
+/// use(innovation_view) of a measurement seen from x: H and R are not copied where the measurement keeps them.
+template <class Scalar, int N, class Measurement, class Use>
+[[gnu::always_inline]] inline auto with_innovation(const Measurement& m, const vector<Scalar, N>& x, const Use& use) {
+  constexpr int M = max_measurement_dimension<Measurement>;
+  const vector<Scalar, M>& value = converted<Scalar, M, 1>([&m]() -> decltype(auto) { return m.value(); });
   const auto against = [&](const vector<Scalar, M>& expected) -> vector<Scalar, M> {
     if constexpr (requires { m.residual(value, expected); }) return as_matrix<Scalar, M, 1>(m.residual(value, expected));
     else if constexpr (M == 1 && requires { m.residual(value(0), expected(0)); }) return as_matrix<Scalar, M, 1>(m.residual(value(0), expected(0)));
     else return value - expected;
   };
-  out.covariance = as_matrix<Scalar, M, M>(m.covariance());
+  const matrix<Scalar, M, M>& r = converted<Scalar, M, M>([&m]() -> decltype(auto) { return m.covariance(); });
   if constexpr (has_projection<Measurement>) {
-    const matrix<Scalar, M, N> h = converted<Scalar, M, N>([&m]() -> decltype(auto) { return m.projection(); });
-    for (int j = 0; j < N; ++j)
-      for (int i = 0; i < M; ++i) out.jacobian(i, j) = h(i, j);
-    out.residual = against(times_vector<Scalar, M, N, seen_components_of<Measurement>()>(out.jacobian, x));
+    const matrix<Scalar, M, N>& h = converted<Scalar, M, N>([&m]() -> decltype(auto) { return m.projection(); });
+    const vector<Scalar, M> residual = against(times_vector<Scalar, M, N, seen_components_of<Measurement>()>(h, x));
+    return use(innovation_view<Scalar, N, M>{residual, h, r});
   } else {
     const auto expected = m.project(x);
-    out.jacobian = as_matrix<Scalar, M, N>(expected.jacobian);
-    out.residual = against(as_matrix<Scalar, M, 1>(expected.value));
+    const matrix<Scalar, M, N>& h = converted<Scalar, M, N>([&expected]() -> decltype((expected.jacobian)) { return expected.jacobian; });
+    const vector<Scalar, M> residual = against(as_matrix<Scalar, M, 1>(expected.value));
+    return use(innovation_view<Scalar, N, M>{residual, h, r});
   }
 }
 
@@ -103,9 +112,8 @@ template <class Scalar, int N, int M, class Measurement>
 /// Compares a measurement with the state x: residual value - h(x), or m.residual(value, h(x)) where the measurement defines it.
 template <class Measurement, class Scalar, int N>
 [[nodiscard]] auto compare(const Measurement& m, const vector<Scalar, N>& x) -> innovation<Scalar, N, max_measurement_dimension<Measurement>> {
-  innovation<Scalar, N, max_measurement_dimension<Measurement>> out;
-  detail::set_innovation(out, m, x);
-  return out;
+  using result = innovation<Scalar, N, max_measurement_dimension<Measurement>>;
+  return detail::with_innovation(m, x, [](const auto& seen) -> result { return {seen.residual, seen.jacobian, seen.covariance}; });
 }
 
 /// A measurement replaced by its tangent at a state: itself a linear measurement, so that every update policy takes it.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 #pragma once
 
-#include <scifi/kalman/gain.hpp>
+#include <scifi/kalman/correction.hpp>
 
 namespace scifi::kalman {
 
@@ -9,19 +9,18 @@ namespace scifi::kalman {
 ///
 /// Valid where the measurement is not much more precise than the prediction; use `joseph` or `square_root` elsewhere.
 struct plain {
+  /// Writes the posterior of a measurement whose gain is known.
+  template <class Scalar, int N, int M>
+  [[gnu::always_inline]] static void correct(const estimate<Scalar, N>& prior, const detail::innovation_view<Scalar, N, M>& seen, const gain<Scalar, N, M>& k, estimate<Scalar, N>& posterior) {
+    matrix<Scalar, N, N> a = matrix<Scalar, N, N>::Identity();
+    a -= detail::times<Scalar, N, M, N>(k.weight(), seen.jacobian);
+    detail::multiply(posterior.covariance, a, [&prior](int row, int col) -> const Scalar& { return prior.covariance(row, col); });
+    k.move(prior.mean, posterior.mean);
+  }
+
   template <class Scalar, int N, class Measurement>
   [[nodiscard]] auto operator()(const estimate<Scalar, N>& prior, const Measurement& m) const -> updated<Scalar, N, max_measurement_dimension<Measurement>> {
-    constexpr int M = max_measurement_dimension<Measurement>;
-    innovation<Scalar, N, M> seen;
-    detail::set_innovation(seen, m, prior.mean);
-    const gain<Scalar, N, M> k = optimal_gain<Scalar, N, M, detail::seen_components_of<Measurement>()>(prior.covariance, seen);
-    updated<Scalar, N, M> out;
-    matrix<Scalar, N, N> a = matrix<Scalar, N, N>::Identity();
-    a -= detail::times<Scalar, N, M, N>(k.weight, seen.jacobian);
-    detail::multiply(out.posterior.covariance, a, [&prior](int row, int col) -> const Scalar& { return prior.covariance(row, col); });
-    out.posterior.mean = prior.mean + detail::times_vector<Scalar, N, M>(k.weight, seen.residual);
-    detail::complete(out, prior, seen, k);
-    return out;
+    return detail::corrected(*this, prior, m);
   }
 };
 

@@ -35,10 +35,10 @@ template <class Scalar, int N, class Q, class Step, class Moved>
   else return q.covariance(step);
 }
 
-/// The noise of a step, N x N.
+/// The noise of a step, N x N, to be bound to a constant reference.
 template <class Scalar, int N, class Q, class Step, class Moved>
-[[nodiscard]] matrix<Scalar, N, N> noise_covariance(const Q& q, const vector<Scalar, N>& start, const Step& step, const Moved& moved) {
-  if constexpr (std::is_same_v<Q, no_noise>) return matrix<Scalar, N, N>::Zero();
+[[nodiscard]] decltype(auto) noise_covariance(const Q& q, const vector<Scalar, N>& start, const Step& step, const Moved& moved) {
+  if constexpr (std::is_same_v<Q, no_noise>) return matrix<Scalar, N, N>(matrix<Scalar, N, N>::Zero());
   else return converted<Scalar, N, N>([&]() -> decltype(auto) { return noise_value<Scalar, N>(q, start, step, moved); });
 }
 

@@ -89,6 +89,38 @@ template <class Scalar, int Rows, int K, unsigned Used = ~0u>
   return out;
 }
 
+/// start + sum over k of a(k) b(k) over the k whose bit is set in Used, in two halves likewise.
+template <int K, unsigned Used = ~0u, class Scalar, class A, class B>
+[[nodiscard, gnu::always_inline]] inline Scalar add_dot(const Scalar& start, const A& a, const B& b) {
+  Scalar sum(start);
+  Scalar other(0.0);
+  bool even = true;
+  for (int k = 0; k < K; ++k) {
+    if (!has_bit(Used, k)) continue;
+    if (even) sum += a(k) * b(k);
+    else other += a(k) * b(k);
+    even = !even;
+  }
+  return sum + other;
+}
+
+/// out = base + a w.
+template <class Scalar, int Rows, int K>
+[[gnu::always_inline]] inline void set_vector_sum(vector<Scalar, Rows>& out, const vector<Scalar, Rows>& base, const matrix<Scalar, Rows, K>& a, const vector<Scalar, K>& w) {
+  if constexpr (in_registers<Scalar>) {
+    using column = detail::column<Scalar, Rows>;
+    column sum = column::load(base.data());
+    for (int k = 0; k < K; ++k) sum.add(column::load(a.data() + Rows * k), w(k));
+    sum.store(out.data());
+  } else {
+    for (int i = 0; i < Rows; ++i) {
+      Scalar sum(base(i));
+      for (int k = 0; k < K; ++k) sum += a(i, k) * w(k);
+      out(i) = sum;
+    }
+  }
+}
+
 /// out = a w, where weight(k, j) is the entry of w (K x Cols), over the columns k of a whose bit is set in Used.
 template <unsigned Used = ~0u, class Scalar, int Rows, int K, int Cols, class Weight>
 [[gnu::always_inline]] inline void multiply(matrix<Scalar, Rows, Cols>& out, const matrix<Scalar, Rows, K>& a, const Weight& weight) {

@@ -106,6 +106,13 @@ template <class Filter, class Prior, class Sites, class Nodes, class References>
       const auto take = [&](status predicted, const auto&... about) {
         if constexpr (factored) n.predicted = unfactored(prediction);
         each_alternative(here.measurement, [&](const auto& m) {
+          if constexpr (!factored && std::remove_cvref_t<decltype(f)>::template updates_in_place<estimate_type, std::remove_cvref_t<decltype(m)>, decltype(about)...>) {
+            if (predicted.ok()) {
+              f.update_into(prediction, m, n, about...);
+              current = &n.filtered;
+              return;
+            }
+          }
           const auto u = f.update(basic_prior<estimate_type>{prediction, predicted}, m, about...);
           record_update(n, u);
           if constexpr (factored) after_update = u.posterior;

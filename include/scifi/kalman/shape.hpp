@@ -49,10 +49,11 @@ template <class Scalar, int Rows, int Cols, class T>
   }
 }
 
-/// What f() returns as a matrix of the wanted scalar; without a copy where it is one already.
+/// What f() returns as a matrix of the wanted scalar, to be bound to a constant reference: without a copy where f() makes it or refers to one.
 template <class Scalar, int Rows, int Cols, class F>
-[[nodiscard]] matrix<Scalar, Rows, Cols> converted(const F& f) {
-  if constexpr (std::is_same_v<decltype(f()), matrix<Scalar, Rows, Cols>>) return f();
+[[nodiscard]] decltype(auto) converted(const F& f) {
+  using wanted = matrix<Scalar, Rows, Cols>;
+  if constexpr (std::is_same_v<decltype(f()), wanted> || std::is_same_v<decltype(f()), const wanted&>) return f();
   else return as_matrix<Scalar, Rows, Cols>(f());
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 #pragma once
 
-#include <scifi/kalman/gain.hpp>
+#include <scifi/kalman/correction.hpp>
 
 namespace scifi::kalman {
 
@@ -11,17 +11,16 @@ namespace scifi::kalman {
 /// not_positive_definite, or leaves a covariance of the size of the rounding; use `joseph` or `square_root` then. Variances between 1e-150 and 1e150, whose squares
 /// are numbers.
 struct symmetric_form {
+  /// Writes the posterior of a measurement whose gain is known.
+  template <class Scalar, int N, int M>
+  [[gnu::always_inline]] static void correct(const estimate<Scalar, N>& prior, const detail::innovation_view<Scalar, N, M>& /*seen*/, const gain<Scalar, N, M>& k, estimate<Scalar, N>& posterior) {
+    detail::subtract_squares<Scalar, N, M>(posterior.covariance, prior.covariance, k.decorrelated, k.factor.inverse_diagonal());
+    k.move(prior.mean, posterior.mean);
+  }
+
   template <class Scalar, int N, class Measurement>
   [[nodiscard]] auto operator()(const estimate<Scalar, N>& prior, const Measurement& m) const -> updated<Scalar, N, max_measurement_dimension<Measurement>> {
-    constexpr int M = max_measurement_dimension<Measurement>;
-    innovation<Scalar, N, M> seen;
-    detail::set_innovation(seen, m, prior.mean);
-    const gain<Scalar, N, M> k = optimal_gain<Scalar, N, M, detail::seen_components_of<Measurement>()>(prior.covariance, seen);
-    updated<Scalar, N, M> out;
-    detail::subtract_squares<Scalar, N, M>(out.posterior.covariance, prior.covariance, k.decorrelated, k.inverse_diagonal);
-    out.posterior.mean = prior.mean + detail::times_vector<Scalar, N, M>(k.weight, seen.residual);
-    detail::complete(out, prior, seen, k);
-    return out;
+    return detail::corrected(*this, prior, m);
   }
 };
 

@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include <scifi/core/inline_vector.hpp>
+#include <scifi/core/refuse.hpp>
 #include <scifi/material/material.hpp>
 #include <scifi/material/materials.hpp>
 
@@ -25,7 +26,7 @@ struct slab {
 
 /// One of `slices` equal slices of a slab; the layer it belongs to stays. Throws std::invalid_argument when slices < 1.
 [[nodiscard]] constexpr slab split(const slab& original, int slices) {
-  if (slices < 1) throw std::invalid_argument("scifi::split: a slab is split into one slice or more");
+  if (slices < 1) detail::refuse<std::invalid_argument>("scifi::split: a slab is split into one slice or more");
   return {original.medium, original.thickness / slices, original.layer_radiation_lengths};
 }
 
@@ -44,7 +45,7 @@ class slab_stack {
  public:
   /// Appends a slab at larger z. Throws std::length_error when the stack is full.
   constexpr slab_stack& add(const slab& next) {
-    if (!slabs_.push_back(next)) throw std::length_error("scifi::slab_stack: more slabs than its capacity");
+    if (!slabs_.push_back(next)) detail::refuse<std::length_error>("scifi::slab_stack: more slabs than its capacity");
     return *this;
   }
 

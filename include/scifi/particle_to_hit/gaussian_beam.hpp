@@ -6,6 +6,7 @@
 
 #include <scifi/core/linalg.hpp>
 #include <scifi/core/random.hpp>
+#include <scifi/core/refuse.hpp>
 #include <scifi/particle_to_hit/moving_particle.hpp>
 
 namespace scifi {
@@ -26,12 +27,12 @@ struct gaussian_beam {
 
   /// Throws std::invalid_argument, naming the culprit, where no particle can be drawn.
   void check() const {
-    if (hypothesis.charge == 0) throw std::invalid_argument("gaussian_beam: the particle must be charged");
-    if (!(emittance >= 0.0) || !std::isfinite(emittance)) throw std::invalid_argument("gaussian_beam: the emittance must not be negative");
-    if (!(beta > 0.0) || !std::isfinite(beta)) throw std::invalid_argument("gaussian_beam: the beta function must be above zero");
-    if (!std::isfinite(alpha) || !std::isfinite(canonical)) throw std::invalid_argument("gaussian_beam: alpha and the canonical angular momentum must be finite");
-    if (!(pz > 0.0) || !std::isfinite(pz)) throw std::invalid_argument("gaussian_beam: pz must be above zero");
-    if (!(pz_spread >= 0.0) || !(pz_spread < pz)) throw std::invalid_argument("gaussian_beam: the spread of pz must not be negative nor reach pz");
+    if (hypothesis.charge == 0) detail::refuse<std::invalid_argument>("gaussian_beam: the particle must be charged");
+    if (!(emittance >= 0.0) || !std::isfinite(emittance)) detail::refuse<std::invalid_argument>("gaussian_beam: the emittance must not be negative");
+    if (!(beta > 0.0) || !std::isfinite(beta)) detail::refuse<std::invalid_argument>("gaussian_beam: the beta function must be above zero");
+    if (!std::isfinite(alpha) || !std::isfinite(canonical)) detail::refuse<std::invalid_argument>("gaussian_beam: alpha and the canonical angular momentum must be finite");
+    if (!(pz > 0.0) || !std::isfinite(pz)) detail::refuse<std::invalid_argument>("gaussian_beam: pz must be above zero");
+    if (!(pz_spread >= 0.0) || !(pz_spread < pz)) detail::refuse<std::invalid_argument>("gaussian_beam: the spread of pz must not be negative nor reach pz");
   }
 
   /// A particle at z (mm) that flies along `direction` (+1 or -1) in z; `field` is Bz, (MeV/c)/(e mm), in the same frame. Throws

@@ -6,6 +6,7 @@
 
 #include <scifi/core/constants.hpp>
 #include <scifi/core/random.hpp>
+#include <scifi/core/refuse.hpp>
 #include <scifi/geometry/tracker.hpp>
 #include <scifi/particle_to_hit/moving_particle.hpp>
 
@@ -25,11 +26,11 @@ struct flat_beam {
   /// Throws std::invalid_argument, naming the culprit, where no particle can be drawn.
   void check() const {
     const auto ordered = [](double low, double high) { return std::isfinite(low) && std::isfinite(high) && low >= 0.0 && low <= high; };
-    if (hypothesis.charge == 0) throw std::invalid_argument("flat_beam: the particle must be charged");
-    if (!ordered(pz_min, pz_max) || !(pz_max > 0.0)) throw std::invalid_argument("flat_beam: pz needs 0 <= minimum <= maximum, above zero");
-    if (!ordered(pt_min, pt_max)) throw std::invalid_argument("flat_beam: pt needs 0 <= minimum <= maximum");
-    if (!(pt_min < pt_over_pz_max * pz_max)) throw std::invalid_argument("flat_beam: no pair of pt and pz has a slope below the limit");
-    if (!(radius >= 0.0)) throw std::invalid_argument("flat_beam: the radius must not be negative");
+    if (hypothesis.charge == 0) detail::refuse<std::invalid_argument>("flat_beam: the particle must be charged");
+    if (!ordered(pz_min, pz_max) || !(pz_max > 0.0)) detail::refuse<std::invalid_argument>("flat_beam: pz needs 0 <= minimum <= maximum, above zero");
+    if (!ordered(pt_min, pt_max)) detail::refuse<std::invalid_argument>("flat_beam: pt needs 0 <= minimum <= maximum");
+    if (!(pt_min < pt_over_pz_max * pz_max)) detail::refuse<std::invalid_argument>("flat_beam: no pair of pt and pz has a slope below the limit");
+    if (!(radius >= 0.0)) detail::refuse<std::invalid_argument>("flat_beam: the radius must not be negative");
   }
 
   /// A particle that flies along `direction` (+1 or -1) in z, starting on the disc at z (mm). Throws std::invalid_argument where a million pairs of pt and pz, or
@@ -56,7 +57,7 @@ struct flat_beam {
 
   /// The same at the tracker's upstream end: `distance` before the reference surface of the first station met by its beam.
   [[nodiscard]] moving_particle shoot(const tracker& t, random_stream& random) const {
-    if (t.stations.empty()) throw std::invalid_argument("flat_beam: the tracker has no station");
+    if (t.stations.empty()) detail::refuse<std::invalid_argument>("flat_beam: the tracker has no station");
     const station& first = t.beam_direction > 0 ? t.stations.front() : t.stations.back();
     return shoot(first.in_tracker.origin.z() - t.beam_direction * distance, t.beam_direction, random);
   }

@@ -13,14 +13,14 @@ TEST_CASE("a rejected measurement leaves the estimate and is marked, with its ch
   const auto prior = kalman::uncorrelated(Eigen::Vector2d(0.0, 0.0), Eigen::Vector2d(1.0, 1.0));
   const auto u = kalman::joseph{}(prior, models::position{10.0, 1.0});  // chi2 = 100 / 2
   auto out = u;
-  kalman::detail::apply_gate(kalman::chi2_gate{49.0}, prior, out);
+  kalman::detail::apply_gate<1>(kalman::chi2_gate{49.0}, prior, out.posterior, out);
   CHECK(out.outlier);
   CHECK(out.posterior.mean == prior.mean);
   CHECK(out.posterior.covariance == prior.covariance);
   CHECK(out.chi2 == Approx(50.0));
   CHECK(out.status.ok());
   out = u;
-  kalman::detail::apply_gate(kalman::chi2_gate{51.0}, prior, out);
+  kalman::detail::apply_gate<1>(kalman::chi2_gate{51.0}, prior, out.posterior, out);
   CHECK_FALSE(out.outlier);
   CHECK(out.posterior.mean(0) == Approx(5.0));
 }

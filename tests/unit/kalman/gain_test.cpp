@@ -22,7 +22,11 @@ void check_against_inverse(std::mt19937_64& engine) {
   const double tolerance = 1e-13 * s.norm() * inverse.norm();
   CHECK(k.why == kalman::reason::none);
   CHECK((k.residual_covariance - s).norm() < 1e-13 * s.norm());
-  CHECK((k.weight - p * seen.jacobian.transpose() * inverse).norm() < tolerance * (1.0 + k.weight.norm()));
+  CHECK((k.weight() - p * seen.jacobian.transpose() * inverse).norm() < tolerance * (1.0 + k.weight().norm()));
+  const scifi::vector<double, N> x = models::random_matrix<N, 1>(engine);
+  scifi::vector<double, N> moved;
+  k.move(x, moved);
+  CHECK((moved - x - p * seen.jacobian.transpose() * inverse * seen.residual).norm() < tolerance * (1.0 + k.weight().norm()) * (1.0 + seen.residual.norm() + x.norm()));
   CHECK(k.chi2 == Approx((seen.residual.transpose() * inverse * seen.residual)(0, 0)).epsilon(tolerance));
 }
 
@@ -41,11 +45,11 @@ TEST_CASE("the gain is P H' times the inverse of S", "[kalman]") {
 TEST_CASE("a residual covariance that cannot be inverted is named", "[kalman]") {
   const Eigen::Matrix2d p = Eigen::Vector2d(1.0, 0.0).asDiagonal();
   const kalman::innovation<double, 2, 1> exact{scifi::vector<double, 1>::Constant(1.0), {0.0, 1.0}, scifi::matrix<double, 1, 1>::Zero()};
-  CHECK(kalman::optimal_gain<double, 2, 1>(p, exact).why == kalman::reason::singular_innovation);
-  CHECK(std::isnan(kalman::optimal_gain<double, 2, 1>(p, exact).chi2));
+  CHECK(kalman::optimal_gain(p, exact).why == kalman::reason::singular_innovation);
+  CHECK(std::isnan(kalman::optimal_gain(p, exact).chi2));
   const kalman::innovation<double, 2, 2> twice{{1.0, 1.0}, Eigen::Matrix2d::Ones(), Eigen::Matrix2d::Zero()};
-  CHECK(kalman::optimal_gain<double, 2, 2>(p, twice).why == kalman::reason::singular_innovation);
+  CHECK(kalman::optimal_gain(p, twice).why == kalman::reason::singular_innovation);
   const Eigen::Matrix2d nan = Eigen::Matrix2d::Constant(std::numeric_limits<double>::quiet_NaN());
-  CHECK(kalman::optimal_gain<double, 2, 1>(nan, exact).why == kalman::reason::not_finite);
-  CHECK(kalman::optimal_gain<double, 2, 2>(nan, twice).why == kalman::reason::not_finite);
+  CHECK(kalman::optimal_gain(nan, exact).why == kalman::reason::not_finite);
+  CHECK(kalman::optimal_gain(nan, twice).why == kalman::reason::not_finite);
 }
