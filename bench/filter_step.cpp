@@ -124,9 +124,7 @@ struct library {
       kalman::estimate<double, N> e{answer<N>{}.x, answer<N>{}.p};
       double chi2 = 0.0;
       for (std::size_t i = 0; i < steps; ++i) {
-        const auto u = filter.update(filter.predict(e, 1.0), measured<N, M>{&g, i});
-        chi2 += u.chi2;
-        e = u.posterior;
+        chi2 += filter.advance(e, 1.0, measured<N, M>{&g, i}).chi2;
       }
       return {e.mean, e.covariance, chi2};
     }

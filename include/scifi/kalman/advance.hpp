@@ -9,6 +9,7 @@
 #include <scifi/kalman/in_some_lanes.hpp>
 #include <scifi/kalman/process_noise.hpp>
 #include <scifi/kalman/propagation.hpp>
+#include <scifi/kalman/sentences.hpp>
 #include <scifi/kalman/step_covariance.hpp>
 
 namespace scifi::kalman {
@@ -39,9 +40,10 @@ inline constexpr bool corrects_in_place = [] {
   else return corrects<Update, Scalar, N, M> && measurement<Measurement, Scalar, N> && gate<Gate, Scalar>;
 }();
 
-template <class Propagator, class Noise, class Update, class Gate, class Estimate, class Step, class Measurement>
-inline constexpr bool advances_in_place = corrects_in_place<Update, Gate, Estimate, Measurement> && propagator<Propagator, typename Estimate::scalar, Estimate::dimension, Step> &&
-                                          process_noise<Noise, typename Estimate::scalar, Estimate::dimension, Step>;
+/// Likewise for a step; one that does not fit, or may be absent, is left to `filter::predict`.
+template <class Propagator, class Noise, class Estimate, class Step>
+inline constexpr bool steps_in_place = propagator<Propagator, typename Estimate::scalar, Estimate::dimension, Step> &&
+                                       process_noise<Noise, typename Estimate::scalar, Estimate::dimension, Step> && model_spaces_agree<Propagator, Noise>::value;
 
 /// use(end, F, Q) of a step from x; F and Q are not copied where the model keeps them.
 template <class Propagator, class Noise, class Scalar, int N, class Step, class Use>

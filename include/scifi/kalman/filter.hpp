@@ -66,8 +66,8 @@ class filter {
   /// One step and the measurement at its end: `e` becomes the posterior of update(predict(e, step), m). The fastest way along, for it keeps no record of
   /// Jacobians, residuals and their covariances. Where it fails `e` is left as it was before the part that failed.
   template <class Estimate, class Step, class Measurement>
-  outcome<typename Estimate::scalar> advance(Estimate& e, const Step& step, const Measurement& m) const {
-    if constexpr (detail::advances_in_place<Propagator, Noise, Update, Gate, Estimate, Step, Measurement>) {
+  [[nodiscard]] outcome<typename Estimate::scalar> advance(Estimate& e, const Step& step, const Measurement& m) const {
+    if constexpr (updates_in_place<Estimate, Measurement> && detail::steps_in_place<Propagator, Noise, Estimate, Step>) {
       return detail::advance(propagator_, noise_, update_, gate_, e, step, m);
     } else {
       const auto u = update(predict(e, step), m);
@@ -205,7 +205,7 @@ class filter {
   static constexpr bool updates_in_place = [] {
     using Scalar = typename Estimate::scalar;
     constexpr bool tangent = sizeof...(About) == 0 || detail::is_own_tangent<Measurement, Scalar, Estimate::dimension>;
-    return tangent && detail::corrects_in_place<Update, Gate, Estimate, Measurement>;
+    return tangent && detail::corrects_in_place<Update, Gate, Estimate, Measurement> && detail::measurement_space_agrees<Propagator, Measurement>::value;
   }();
 
   template <class Estimate, class Measurement, class Node, class... About>
