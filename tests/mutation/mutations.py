@@ -31,8 +31,8 @@ MUTATIONS = [
     ("material/landau.hpp", "(Scalar(1.0) - k.beta_squared * Scalar(0.5))", "(Scalar(1.0) + k.beta_squared * Scalar(0.5))"),
     ("material/density_effect.hpp", "const Scalar slope_curved = Scalar(2.0) - power * Scalar(s.m / ln10);", "const Scalar slope_curved = Scalar(2.0) - power;"),
     # the filter: a transpose, a noise left out, a sign
-    ("kalman/gain.hpp", "out.residual_covariance += seen.covariance;", "out.residual_covariance -= seen.covariance;"),
-    ("kalman/joseph.hpp", "times<Scalar, N, M, M>(k.weight, seen.covariance) - detail", "times<Scalar, N, M, M>(k.weight, seen.covariance) + detail"),
+    ("kalman/gain.hpp", "add_dot<N, Seen, Scalar>(seen.covariance(i, j), [", "add_dot<N, Seen, Scalar>(-seen.covariance(i, j), ["),
+    ("kalman/joseph.hpp", "times<Scalar, N, M, M>(weight, seen.covariance) - detail", "times<Scalar, N, M, M>(weight, seen.covariance) + detail"),
     ("kalman/symmetric.hpp", "set_symmetric_sum(out, added, fp, transpose_of<Scalar, N, K>(f));", "set_symmetric_sum(out, added, fp, transpose_of<Scalar, N, K>(fp));"),
     ("kalman/smoother.hpp", "after.smoothed.mean - after.predicted.mean", "after.smoothed.mean - after.filtered.mean"),
     ("kalman/gate.hpp", "chi2 <= Scalar(max_chi2_per_dimension", "chi2 >= Scalar(max_chi2_per_dimension"),
