@@ -25,7 +25,8 @@ function(scifi_compile_here target)
   if(arg_NATIVE AND SCIFI_NATIVE)
     target_compile_options(${target} PRIVATE -march=native)
     if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
-      target_compile_options(${target} PRIVATE -Wno-array-bounds)  # false alarms from AVX-512 stores of odd-sized Eigen objects
+      # False alarms: AVX-512 stores of odd-sized Eigen objects, and operands of intrinsics that are undefined on purpose.
+      target_compile_options(${target} PRIVATE -Wno-array-bounds -Wno-uninitialized -Wno-maybe-uninitialized)
     endif()
   endif()
   get_target_property(sources ${target} SOURCES)
