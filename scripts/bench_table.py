@@ -150,7 +150,7 @@ def chain_table(r):
 
 
 def field_table(r):
-    rows = [[name.replace("um:", "").replace("/um", ", tolerance um ")] + [figure(r.median("field", name, "cpu_time"))] for name in r.values["field"]]
+    rows = [[re.sub(r"/um/(\d+)$", r", steps to \1 um", name)] + [figure(r.median("field", name, "cpu_time"))] for name in sorted(r.values["field"], reverse=True)]
     return "Fields, and flights over the length of a tracker in them, ns.\n\n" + table(["", "ns"], rows)
 
 
