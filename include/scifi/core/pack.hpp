@@ -111,7 +111,15 @@ struct pack {
   [[gnu::always_inline]] friend mask_type operator>=(const pack& a, const pack& b) { return mask_type(a.v >= b.v); }
 
   /// a where the mask is true, b elsewhere.
-  [[nodiscard, gnu::always_inline]] friend pack select(const mask_type& m, const pack& a, const pack& b) { return pack(m.bits ? a.v : b.v); }
+  [[nodiscard, gnu::always_inline]] friend pack select(const mask_type& m, const pack& a, const pack& b) {
+#if defined(__x86_64__) && !defined(__SSE4_1__) && !defined(__clang__)
+    // Without SSE 4.1 there is no comparison of 64-bit lanes, and GCC 12 stops with an internal error where it wants one for the operator below.
+    using bits = typename mask_type::vector_type;
+    return pack(reinterpret_cast<vector_type>((m.bits & reinterpret_cast<bits>(a.v)) | (~m.bits & reinterpret_cast<bits>(b.v))));
+#else
+    return pack(m.bits ? a.v : b.v);
+#endif
+  }
 
   [[nodiscard, gnu::always_inline]] friend pack sqrt(const pack& a) {
 #if defined(__AVX512F__) && defined(__AVX512DQ__)
