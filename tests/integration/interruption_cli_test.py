@@ -23,14 +23,6 @@ EVENTS = 3000
 OUTPUTS = ("--output", "t.csv", "--track-points", "p.csv")
 
 
-def wait_for(condition, what, seconds=60):
-    end = time.monotonic() + seconds
-    while not condition():
-        if time.monotonic() > end:
-            raise AssertionError(f"waited too long for {what}")
-        time.sleep(0.005)
-
-
 def limit_files(size):
     return lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (size, size))
 
@@ -131,10 +123,10 @@ class Resume(programs.BesideItsPage):
         run = self.fed(*arguments)
         run.feed(self.rows_up_to(400))
         # A checkpoint is written when some time has passed since the last.
-        wait_for(lambda: (self.folder / "t.csv.partial").stat().st_size > 10000, "the first block")
+        programs.wait_for(lambda: (self.folder / "t.csv.partial").stat().st_size > 10000, "the first block")
         time.sleep(0.3)
         run.feed(self.digits[len(self.rows_up_to(400)):len(self.rows_up_to(event))])
-        wait_for(lambda: self.events_saved() > 0, "a checkpoint")
+        programs.wait_for(lambda: self.events_saved() > 0, "a checkpoint")
         return run.end(kill_with)
 
     def test_killed_runs_are_completed_however_far_they_came(self):
@@ -279,7 +271,7 @@ class Resume(programs.BesideItsPage):
     def test_two_runs_do_not_write_the_same_file(self):
         run = self.fed()
         run.feed(self.rows_up_to(100))
-        wait_for(lambda: (self.folder / "t.csv.partial").exists(), "the first run")
+        programs.wait_for(lambda: (self.folder / "t.csv.partial").exists(), "the first run")
         result = self.resume()
         self.assertEqual(result.returncode, 2)
         self.assertIn("t.csv: cannot be written: another process is writing t.csv.partial", result.stderr)
@@ -378,7 +370,7 @@ class Writers(programs.BesideItsPage):
         for which in (signal.SIGINT, signal.SIGKILL):
             self.old(names)
             process = self.simulate("--events", "100000000", "--threads", "1")
-            wait_for(lambda: any(p.stat().st_size > 100000 for p in self.partial()), "some events")
+            programs.wait_for(lambda: any(p.stat().st_size > 100000 for p in self.partial()), "some events")
             process.send_signal(which)
             errors = process.communicate(timeout=60)[1]
             self.assertEqual(process.returncode, 130 if which == signal.SIGINT else -9, errors)

@@ -33,14 +33,6 @@ def skip_without_mpi():
         programs.skip("scifi-reconstruct was built without SCIFI_MPI, and says so under mpirun")
 
 
-def wait_for(condition, what, seconds=60):
-    end = time.monotonic() + seconds
-    while not condition():
-        if time.monotonic() > end:
-            raise AssertionError(f"waited too long for {what}")
-        time.sleep(0.01)
-
-
 def rank_of(process):
     """Rank of one of our processes by its number, or nothing."""
     try:
@@ -123,7 +115,7 @@ class ManyRanks(programs.BesideItsPage):
             feeder = threading.Thread(target=self.drip, daemon=True)
             feeder.start()
             try:
-                wait_for(lambda: self.events_saved() > 500, "a checkpoint")
+                programs.wait_for(lambda: self.events_saved() > 500, "a checkpoint")
                 stop(job.pid, {rank_of(p): p for p in children_of(job.pid)})
                 errors = job.communicate(timeout=60)[1]
             finally:

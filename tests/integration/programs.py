@@ -9,6 +9,7 @@ import shutil
 import subprocess
 import sys
 import tempfile
+import time
 import unittest
 
 SKIPPED = 77
@@ -37,6 +38,15 @@ def rows(path):
     """The rows of a table, plain or gzip, as dictionaries."""
     with (gzip.open if str(path).endswith(".gz") else open)(path, "rt", newline="", encoding="utf-8") as stream:
         return list(csv.DictReader(stream))
+
+
+def wait_for(condition, what, seconds=60):
+    """Until the condition holds; an error that says what was waited for where that takes too long."""
+    end = time.monotonic() + seconds
+    while not condition():
+        if time.monotonic() > end:
+            raise AssertionError(f"waited too long for {what}")
+        time.sleep(0.005)
 
 
 class InAFolder(unittest.TestCase):
