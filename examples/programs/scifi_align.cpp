@@ -17,16 +17,14 @@
 #include <nlohmann/json.hpp>
 
 #include <scifi/alignment/tracker_alignment.hpp>
-#include <scifi/chain/reconstruction.hpp>
-#include <scifi/geometry/mice.hpp>
 #include <scifi/io/any_geometry.hpp>
 #include <scifi/io/atomic_file.hpp>
 
 #include "align/passes.hpp"
 #include "align/report.hpp"
-#include "conditions/stored_conditions.hpp"
-#include "field/chosen_field.hpp"
 #include "field/chosen_flight.hpp"
+#include "interruption.hpp"
+#include "reconstruct/chains.hpp"
 #include "reconstruct/command_line.hpp"
 #include "run_program.hpp"
 
@@ -35,45 +33,27 @@ namespace {
 namespace alignment = scifi::alignment;
 
 struct options {
-  stored_conditions stored;
-  std::string digits, geometry, output = "aligned.json", parameters, particle = "mu";
-  chosen_field field;
-  double min_npe = 2.0, momentum = 200.0, min_p_value = 0.001;
+  reconstruction_input in;
+  std::string output = "aligned.json", parameters;
+  double min_p_value = 0.001;
   std::string level = "stations", free = "both", frame = "ends";
   std::vector<int> hold, trackers;
-  int passes = 10, min_planes = 0, threads = 0;
+  int passes = 10, min_planes = 0;
 };
 
 void check(const options& o) {
-  const auto require = [](bool good, const char* what) {
-    if (!good) throw std::invalid_argument(what);
-  };
-  require(std::isfinite(o.min_npe) && o.min_npe >= 0.0, "--min-npe: not a finite number from 0 on");
-  require(std::isfinite(o.momentum) && o.momentum > 0.0, "--momentum: not a finite number above 0");
-  require(o.min_p_value >= 0.0 && o.min_p_value < 1.0, "--min-p-value: not in 0 .. 1");
-  for (const std::string& out : {o.output, o.parameters})
-    for (const std::string& in : {o.digits, o.geometry, o.stored.store(), o.field.file()})
-      if (!out.empty() && !in.empty() && same_file(in, out)) throw std::invalid_argument(out + ": would overwrite what is read");
-  require(o.parameters.empty() || !same_file(o.output, o.parameters), "--output and --parameters: the same file");
+  if (!(o.min_p_value >= 0.0 && o.min_p_value < 1.0)) throw std::invalid_argument("--min-p-value: not in 0 .. 1");
   std::error_code none;
-  if (std::filesystem::exists(o.digits, none) && !std::filesystem::is_regular_file(o.digits, none))
-    throw std::invalid_argument(o.digits + ": is not a file: the digits are read once for each pass");
+  if (std::filesystem::exists(o.in.digits, none) && !std::filesystem::is_regular_file(o.in.digits, none))
+    throw std::invalid_argument(o.in.digits + ": is not a file: the digits are read once for each pass");
 }
 
 void run(options& o) {
   static const std::map<std::string, alignment::frame> frames{{"ends", alignment::frame::ends}, {"average", alignment::frame::average}, {"none", alignment::frame::none}};
-  o.stored.fill_in(o.geometry, scifi::condition_kind::geometry);
+  interruption::listen();
   check(o);
-  scifi::any_geometry geometry;
-  if (o.geometry.empty()) geometry.detector = scifi::mice::trackers();
-  else geometry = scifi::read_any_geometry(o.geometry);
-  for (const std::string& note : geometry.notes) fmt::print(stderr, "note: {}\n", note);
-
-  const scifi::reconstruction_options choice{.hypothesis = hypothesis_named(o.particle),
-                                             .min_npe = o.min_npe,
-                                             .line_momentum = o.momentum,
-                                             .fibre = geometry.fibre};
-  o.field.resolve(geometry.detector, &geometry);
+  scifi::any_geometry geometry = o.in.prepare({o.output, o.parameters});
+  const scifi::reconstruction_options choice = o.in.choice(geometry);
   const alignment::frame keep = frames.at(o.frame);
   const alignment::free_motions free{o.level == "planes" ? alignment::level::planes : alignment::level::stations, o.free != "rotations", o.free != "shifts", o.hold};
   for (const int id : o.trackers)
@@ -92,8 +72,8 @@ void run(options& o) {
   std::optional<scifi::atomic_file> report;
   if (!o.parameters.empty()) report.emplace(o.parameters);
 
-  with_flight(o.field, [&](const auto& flight_in) {
-    align(o.digits, o.passes, o.threads, geometry.detector, [&](const scifi::detector& now) { return scifi::make_reconstruction(now, choice, flight_in); }, trackers);
+  with_flight(o.in.field, [&](const auto& flight_in) {
+    align(o.in.digits, o.passes, o.in.threads, geometry.detector, [&](const scifi::detector& now) { return make_chain(now, choice, flight_in); }, trackers);
   });
 
   nlohmann::ordered_json results = nlohmann::ordered_json::array();
@@ -106,9 +86,9 @@ void run(options& o) {
   if (report) {
     const nlohmann::ordered_json document = {{"format", "scifi-alignment"},
                                              {"version", 1},
-                                             {"digits", o.digits},
-                                             {"geometry", o.geometry.empty() ? "MICE trackers as surveyed" : o.stored.origin(o.geometry)},
-                                             {"field", o.field.none() ? "none" : o.field.description()},
+                                             {"digits", o.in.digits},
+                                             {"geometry", o.in.geometry_name()},
+                                             {"field", o.in.field.none() ? "none" : o.in.field.description()},
                                              {"level", o.level},
                                              {"free", o.free},
                                              {"frame", o.frame},
@@ -118,7 +98,8 @@ void run(options& o) {
     report->commit();
   }
   aligned.commit();
-  fmt::print("scifi-align: {}, {}\n", o.digits, o.field.none() ? fmt::format("straight tracks, scattering of {} MeV/c", o.momentum) : "bent tracks in " + o.field.description());
+  fmt::print("scifi-align: {}, {}\n", o.in.digits,
+             o.in.field.none() ? fmt::format("straight tracks, scattering of {} MeV/c", o.in.momentum) : "bent tracks in " + o.in.field.description());
   for (const aligned_tracker& t : trackers) print(t);
   fmt::print("\nwritten {}{}\n", o.output, o.parameters.empty() ? "" : ", " + o.parameters);
 }
@@ -128,9 +109,11 @@ void run(options& o) {
 int main(int argc, char** argv) {
   options o;
   CLI::App app{"Aligns scintillating-fibre trackers with the tracks through them (Millepede's method). Units: mm, rad, MeV/c, tesla; tracker frame."};
-  app.add_option("DIGITS", o.digits, "digits: CSV with the columns event, tracker, station, plane, channel, npe, or MICE JSON (.json); may be gzip")->required();
-  app.add_option("--geometry", o.geometry, "geometry to start from, JSON (.json) or MiceModules (.dat); the MICE trackers unless given");
-  o.stored.offer(app);
+  o.in.offer(app);
+  app.get_option("--geometry")->description("geometry to start from, JSON (.json) or MiceModules (.dat); the MICE trackers unless given");
+  app.get_option("--field")
+      ->description("field in the tracker frame: a number, tesla along z (0: straight tracks); a file with a field map; or 'coils', those of the geometry")
+      ->default_val("0");
   app.add_option("-o,--output", o.output, "geometry found, JSON")->capture_default_str();
   app.add_option("--parameters", o.parameters, "parameters with errors, covariance, constraints and modes, JSON; not written unless given");
   app.add_option("--tracker", o.trackers, "only these trackers; all unless given");
@@ -142,18 +125,10 @@ int main(int argc, char** argv) {
       ->check(CLI::IsMember({"ends", "average", "none"}))
       ->capture_default_str();
   app.add_option("--hold", o.hold, "stations that do not move at all, by their ids");
-  o.field.offer(app);
-  app.get_option("--field")
-      ->description("field in the tracker frame: a number, tesla along z (0: straight tracks); a file with a field map; or 'coils', those of the geometry")
-      ->default_val("0");
-  app.add_option("--particle", o.particle, "particle whose mass the fit assumes: mu, pi, e, p")->capture_default_str();
-  app.add_option("--min-npe", o.min_npe, "least light of a digit, photo-electrons")->capture_default_str();
-  app.add_option("--momentum", o.momentum, "momentum along z assumed for straight tracks, MeV/c")->capture_default_str();
   app.add_option("--passes", o.passes, "at most so many passes over the digits; it ends when no parameter moves by more than a tenth of its error")
       ->check(CLI::Range(1, 100))
       ->capture_default_str();
   app.add_option("--min-planes", o.min_planes, "least measurements of a track; 0: four fifths of the planes")->check(CLI::Range(0, 1000))->capture_default_str();
   app.add_option("--min-p-value", o.min_p_value, "least probability of a track's chi2, once the scale of all is known")->capture_default_str();
-  app.add_option("--threads", o.threads, "number of threads; 0: all cores. The output does not depend on it")->check(CLI::Range(0, 1024))->capture_default_str();
   return run_program("scifi-align", app, argc, argv, [&o] { run(o); });
 }

@@ -2,8 +2,8 @@
 // scifi-reconstruct: tracks in the digits of scintillating-fibre trackers, from CSV or MICE JSON to CSV.
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <exception>
 #include <filesystem>
 #include <optional>
@@ -11,28 +11,29 @@
 #include <string>
 #include <system_error>
 
+#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
-#include <oneapi/tbb/global_control.h>
-#include <oneapi/tbb/info.h>
-#include <oneapi/tbb/task_arena.h>
-#include <CLI/CLI.hpp>
+#include <oneapi/tbb/enumerable_thread_specific.h>
 
 #include <scifi/chain/reconstruction.hpp>
 #include <scifi/core/pack.hpp>
-#include <scifi/geometry/mice.hpp>
 #include <scifi/io/any_geometry.hpp>
-#include <scifi/track_model/nystrom_propagator.hpp>
 #include <scifi/version.hpp>
 
-#include "conditions/stored_conditions.hpp"
-#include "field/chosen_field.hpp"
+#include "field/chosen_flight.hpp"
+#include "interruption.hpp"
+#include "reconstruct/chains.hpp"
 #include "reconstruct/check_sum.hpp"
+#include "reconstruct/command_line.hpp"
 #include "reconstruct/event_block.hpp"
-#include "reconstruct/event_pipeline.hpp"
+#include "reconstruct/event_source.hpp"
 #include "reconstruct/monitor.hpp"
+#include "reconstruct/ordered_blocks.hpp"
+#include "reconstruct/progress.hpp"
 #include "reconstruct/ranks.hpp"
 #include "reconstruct/run_on_ranks.hpp"
+#include "reconstruct/track_block.hpp"
 #include "reconstruct/track_tables.hpp"
 #include "run_program.hpp"
 
@@ -41,54 +42,22 @@ namespace {
 namespace fs = std::filesystem;
 
 struct options {
-  stored_conditions stored;
+  reconstruction_input in;
   monitor watch;
-  std::string digits, geometry, output = "tracks.csv", track_points, particle = "mu";
-  chosen_field field;
-  double min_npe = 2.0, momentum = 200.0;
-  int threads = 0;
+  std::string output = "tracks.csv", track_points;
   bool resume = false;
 };
-
-/// A particle by its name; a name without a sign means the positive one, for the beam of MICE is.
-scifi::particle hypothesis_named(const std::string& name) {
-  const auto found = scifi::particle_from_name(name);
-  if (!found) throw std::invalid_argument("--particle: '" + name + "' is not known; try mu, pi, e or p");
-  const bool without_sign = name == "mu" || name == "muon" || name == "pi" || name == "pion" || name == "e";
-  return without_sign && found->charge < 0 ? scifi::charge_conjugate(*found) : *found;
-}
-
-bool same_file(const fs::path& a, const fs::path& b) {
-  std::error_code none;
-  return fs::weakly_canonical(a, none) == fs::weakly_canonical(b, none) || fs::equivalent(a, b, none);
-}
-
-void check(const options& o) {
-  const auto require = [](bool good, const char* what) {
-    if (!good) throw std::invalid_argument(what);
-  };
-  require(std::isfinite(o.min_npe) && o.min_npe >= 0.0, "--min-npe: not a finite number from 0 on");
-  require(std::isfinite(o.momentum) && o.momentum > 0.0, "--momentum: not a finite number above 0");
-  require(o.threads >= 0 && o.threads <= 1024, "--threads: not in 0 .. 1024");
-  for (const std::string& out : {o.output, o.track_points, o.watch.path()}) {
-    for (const std::string& in : {o.digits, o.geometry, o.stored.store(), o.field.file()})
-      if (!out.empty() && !in.empty() && same_file(in, out)) throw std::invalid_argument(out + ": would overwrite what is read");
-  }
-  require(o.track_points.empty() || !same_file(o.output, o.track_points), "--output and --track-points: the same file");
-  for (const std::string& out : {o.output, o.track_points})
-    require(o.watch.path().empty() || out.empty() || !same_file(o.watch.path(), out), "--monitor: the same file as another output");
-}
 
 /// What the results depend on besides the digits.
 nlohmann::ordered_json settings_of(const options& o) {
   std::error_code none;
   const auto content = [](const std::string& file) { return fmt::format("a file of check sum {:08x}", check_sum::of(file).check); };
   return {{"the program", fmt::format("{}, {} tracks at a time", scifi::version, scifi::native_lanes<double>)},
-          {"--geometry", o.geometry.empty() ? "the MICE trackers" : content(o.geometry)},
-          {"--field", o.field.given() + (fs::is_regular_file(o.field.file(), none) ? ", " + content(o.field.file()) : "")},
-          {"--particle", o.particle},
-          {"--min-npe", o.min_npe},
-          {"--momentum", o.momentum},
+          {"--geometry", o.in.geometry.empty() ? "the MICE trackers" : content(o.in.geometry)},
+          {"--field", o.in.field.given() + (fs::is_regular_file(o.in.field.file(), none) ? ", " + content(o.in.field.file()) : "")},
+          {"--particle", o.in.particle},
+          {"--min-npe", o.in.min_npe},
+          {"--momentum", o.in.momentum},
           {"--track-points", !o.track_points.empty()},
           {"--monitor", !o.watch.path().empty()}};
 }
@@ -98,9 +67,9 @@ void print_summary(const options& o, const totals& sum, long before, const scifi
   std::FILE* const out = o.output.starts_with("/dev/") || o.track_points.starts_with("/dev/") ? stderr : stdout;
   const auto row = [out](const char* name, long count, const std::string& remark = "") { fmt::print(out, "{:<16}{:>12}{}\n", name, count, remark); };
   fmt::print(out, "scifi-reconstruct {}   units: mm, MeV/c, tesla\n", scifi::version);
-  fmt::print(out, "{:<16}{}, {}, {}\n", "read", o.digits, o.geometry.empty() ? "MICE trackers as surveyed" : o.stored.origin(o.geometry),
-             o.field.none() ? fmt::format("no field, straight lines at {} MeV/c, mass of {}", o.momentum, hypothesis.name)
-                            : fmt::format("{}, helices, mass of {}", o.field.description(), hypothesis.name));
+  fmt::print(out, "{:<16}{}, {}, {}\n", "read", o.in.digits, o.in.geometry_name(),
+             o.in.field.none() ? fmt::format("no field, straight lines at {} MeV/c, mass of {}", o.in.momentum, hypothesis.name)
+                               : fmt::format("{}, helices, mass of {}", o.in.field.description(), hypothesis.name));
   row("events", sum.events, before > 0 ? fmt::format("   {} of them before this run", before) : "");
   row("digits", sum.digits);
   row("clusters", sum.clusters);
@@ -137,32 +106,39 @@ void finish(track_tables& tables, const block_reader& reader) {
   tables.commit();
 }
 
-template <class Reconstruction>
-void write_tracks(options& o, const ranks& all, const scifi::detector& detector, const scifi::particle& hypothesis, std::chrono::steady_clock::time_point start,
-                  const Reconstruction& reconstruct) {
+template <class Chain>
+void write_tracks(options& o, const ranks& all, const Chain& chain, const scifi::particle& hypothesis, std::chrono::steady_clock::time_point start) {
+  const scifi::detector& detector = chain.where();
   const monitor::counts counts = o.watch.counts_of(detector);
   if (!all.leads()) {
-    on_ranks::follow(all, reconstruct, !o.track_points.empty(), counts);
+    on_ranks::follow(all, chain, !o.track_points.empty(), counts);
     return;
   }
   on_ranks::workers others(all);
   interruption::listen();
-  event_source source(o.digits, detector);
+  event_source source(o.in.digits, detector);
   o.watch.prepare(detector);
   track_tables tables(o.output, o.track_points, settings_of(o), o.resume, o.watch);
   block_reader reader(source);
   const long before = tables.sum().events;
   if (const auto& last = tables.resumed()) reader.skip(last->sum.events, last->input_check);
   if (o.resume) say(before > 0 ? fmt::format("goes on after {} events", before) : "nothing to go on with: from the beginning");
-  o.watch.start(o.digits);
-  const int threads = o.threads > 0 ? o.threads : tbb::info::default_concurrency();
+  o.watch.start(o.in.digits);
+  const int threads = number_of_threads(o.in.threads);
   progress display(source.file().size());
   try {
     if (all.size() > 1) {
-      on_ranks::lead(others, all, reader, reconstruct, tables, display, counts);
+      on_ranks::lead(others, all, reader, chain, tables, display, counts);
     } else {
-      const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
-      tbb::task_arena(threads).execute([&] { run_pipeline(reader, reconstruct, tables, threads, display, counts); });
+      tbb::enumerable_thread_specific<typename Chain::buffers> buffers;
+      track_block empty;
+      empty.seen = counts;
+      run_ordered_blocks(
+          reader, threads, empty, [&](track_block& b) { work_on(b, chain, buffers.local(), tables.with_points()); },
+          [&](const track_block& b, std::uintmax_t bytes_read) {
+            tables.write(b);
+            display.update(bytes_read, tables.sum().events);
+          });
     }
   } catch (const interruption::interrupted&) {
     // What is written is in order: `finish` keeps it.
@@ -180,26 +156,15 @@ void write_tracks(options& o, const ranks& all, const scifi::detector& detector,
 
 /// What a reconstruction needs besides the digits.
 struct setup {
-  scifi::particle hypothesis;
-  scifi::detector detector = scifi::mice::trackers();
-  std::optional<scifi::any_geometry> geometry;
+  scifi::any_geometry geometry;
   scifi::reconstruction_options choice;
 };
 
 setup prepare(options& o, const ranks& all) {
   all.check_build();
-  o.stored.fill_in(o.geometry, scifi::condition_kind::geometry);
-  check(o);
-  if (all.size() > 1 && o.threads > 1) throw std::invalid_argument("--threads: under mpirun every rank is one thread; start more ranks");
-  setup out{.hypothesis = hypothesis_named(o.particle), .geometry = {}, .choice = {}};
-  out.choice = {.hypothesis = out.hypothesis, .min_npe = o.min_npe, .line_momentum = o.momentum, .fibre = {}};
-  if (!o.geometry.empty()) {
-    out.geometry = scifi::read_any_geometry(o.geometry);
-    for (const std::string& note : out.geometry->notes) fmt::print(stderr, "note: {}\n", note);
-    out.detector = out.geometry->detector;
-    out.choice.fibre = out.geometry->fibre;
-  }
-  o.field.resolve(out.detector, out.geometry ? &*out.geometry : nullptr);
+  if (all.size() > 1 && o.in.threads > 1) throw std::invalid_argument("--threads: under mpirun every rank is one thread; start more ranks");
+  setup out{.geometry = o.in.prepare({o.output, o.track_points, o.watch.path()}), .choice = {}};
+  out.choice = o.in.choice(out.geometry);
   return out;
 }
 
@@ -207,18 +172,9 @@ void run(options& o, const ranks& all) {
   const auto start = std::chrono::steady_clock::now();
   std::optional<setup> with;
   all.together([&] { with = prepare(o, all); });
-  if (o.field.mapped())
-    write_tracks(o, all, with->detector, with->hypothesis, start, scifi::make_reconstruction(with->detector, with->choice, [&o](const scifi::tracker& t) {
-                   // A thousandth of the resolution of a plane is lost at most.
-                   constexpr scifi::nystrom_options steps{1e-2};
-                   const tracker_field& f = o.field.in(t);
-                   return scifi::tracker_flight<scifi::nystrom_propagator<scifi::field_map>>{{*f.map, steps}, f.mean};
-                 }));
-  else
-    write_tracks(o, all, with->detector, with->hypothesis, start, scifi::make_reconstruction(with->detector, with->choice, [&o](const scifi::tracker& t) {
-                   const double field = o.field.in(t).mean;
-                   return scifi::tracker_flight<scifi::helix_propagator>{{field}, field};
-                 }));
+  with_flight(o.in.field, [&](const auto& flight_in) {
+    write_tracks(o, all, make_chain(with->geometry.detector, with->choice, flight_in), with->choice.hypothesis, start);
+  });
 }
 
 }  // namespace
@@ -227,17 +183,9 @@ int main(int argc, char** argv) {
   const ranks all(argc, argv);
   options o;
   CLI::App app{"Reconstructs tracks from the digits of scintillating-fibre trackers. Units: mm, ns, MeV, MeV/c, tesla; tracker frame."};
-  app.add_option("DIGITS", o.digits, "digits: CSV with the columns event, tracker, station, plane, channel, npe, or MICE JSON (.json); may be gzip")
-      ->required();
-  app.add_option("--geometry", o.geometry, "geometry in JSON (.json) or MiceModules (.dat); the MICE trackers unless given");
-  o.stored.offer(app);
-  o.field.offer(app);
-  app.add_option("--particle", o.particle, "particle whose mass the fit assumes: mu, pi, e, p")->capture_default_str();
-  app.add_option("--min-npe", o.min_npe, "least light of a digit, photo-electrons")->capture_default_str();
-  app.add_option("--momentum", o.momentum, "momentum along z assumed for straight tracks, MeV/c")->capture_default_str();
+  o.in.offer(app);
   app.add_option("--output", o.output, "tracks, CSV")->capture_default_str();
   app.add_option("--track-points", o.track_points, "the tracks at every plane, CSV; not written unless given");
-  app.add_option("--threads", o.threads, "number of threads; 0: all cores. The output does not depend on it")->capture_default_str();
   app.add_flag("--resume", o.resume, "go on where an earlier run with the same options was stopped, be it killed; from the beginning where there is none");
   o.watch.offer(app);
   const int status = run_program("scifi-reconstruct", app, argc, argv, [&] { run(o, all); });

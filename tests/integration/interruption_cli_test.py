@@ -365,6 +365,27 @@ class Writers(programs.BesideItsPage):
                         self.assertEqual(self.partial(), [])
                     self.tearDown()
 
+    def test_an_alignment_that_is_stopped_leaves_what_was_there(self):
+        header, _, rows = (self.folder / "s_digits.csv").read_text(encoding="ascii").partition("\n")
+        split = [row.split(",", 1) for row in rows.splitlines()]
+        many = self.folder / "many.csv"
+        many.write_text(header + "\n" + "".join(f"{200 * i + int(event)},{rest}\n" for i in range(150) for event, rest in split), encoding="ascii")
+        names = ["aligned.json", "parameters.json"]
+        for which in (signal.SIGINT, signal.SIGTERM, signal.SIGKILL):
+            with self.subTest(signal=which):
+                self.old(names)
+                process = subprocess.Popen([programs.BIN / "scifi-align", many, "--field", "3", "--tracker", "1", "--output", *names[:1], "--parameters", *names[1:]], cwd=self.folder,
+                                           stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+                programs.wait_for(self.partial, "the first pass")
+                process.send_signal(which)
+                errors = process.communicate(timeout=60)[1]
+                self.assertEqual(process.returncode, -9 if which == signal.SIGKILL else 128 + which, errors)
+                self.assertEqual(errors, "" if which == signal.SIGKILL else f"scifi-align: stopped by {which.name}; nothing was written\n")
+                self.expect_old(names)
+                if which != signal.SIGKILL:
+                    self.assertEqual(self.partial(), [])
+                self.tearDown()
+
     def test_a_simulation_that_is_stopped_leaves_what_was_there(self):
         names = ["x_digits.csv", "x_truth.csv"]
         for which in (signal.SIGINT, signal.SIGKILL):
@@ -381,5 +402,5 @@ class Writers(programs.BesideItsPage):
 
 
 if __name__ == "__main__":
-    programs.find("scifi-reconstruct", "scifi-simulate", "scifi-display", "scifi-digitise", "scifi-study")
+    programs.find("scifi-reconstruct", "scifi-simulate", "scifi-align", "scifi-display", "scifi-digitise", "scifi-study")
     unittest.main()

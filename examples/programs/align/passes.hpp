@@ -6,7 +6,6 @@
 #include <cstdint>
 #include <exception>
 #include <optional>
-#include <span>
 #include <stdexcept>
 #include <string>
 #include <type_traits>
@@ -15,15 +14,14 @@
 
 #include <fmt/format.h>
 #include <oneapi/tbb/enumerable_thread_specific.h>
-#include <oneapi/tbb/global_control.h>
-#include <oneapi/tbb/info.h>
-#include <oneapi/tbb/task_arena.h>
 
 #include <scifi/alignment/tracker_alignment.hpp>
 #include <scifi/geometry/tracker.hpp>
 
 #include "align/modes.hpp"
+#include "interruption.hpp"
 #include "reconstruct/chains.hpp"
+#include "reconstruct/event_block.hpp"
 #include "reconstruct/event_source.hpp"
 #include "reconstruct/ordered_blocks.hpp"
 #include "reconstruct/progress.hpp"
@@ -47,12 +45,12 @@ template <class MakeChain>
   using collector = alignment::track_collector<std::remove_cvref_t<decltype(chain.trackers().front().fit_track)>>;
 
   std::vector<collector> collect;
-  std::vector<alignment::tracker_sum> sums, empty;
+  std::vector<alignment::tracker_sum> empty;
   for (std::size_t i = 0; i < trackers.size(); ++i) {
     collect.emplace_back(trackers[i].work.parameters(), chain.trackers()[i].fit_track, trackers[i].work.cuts());
     empty.push_back(collect.back().empty());
   }
-  sums = empty;
+  std::vector<alignment::tracker_sum> sums = empty;
 
   struct block : event_block {
     std::vector<alignment::tracker_sum> sums;
@@ -63,14 +61,14 @@ template <class MakeChain>
   };
   tbb::enumerable_thread_specific<memory> memories;
   event_source source(digits, whole);  // digits of trackers that are not aligned are no mistake
+  block_reader reader(source);
   progress display(source.file().size());
   long read = 0;
   const auto work = [&](block& b) {
     memory& m = memories.local();
     b.sums = empty;
-    const std::span events(b.events.data(), b.used);
-    reconstruct(chain, events, m.reconstruction);
-    for (const scifi::event& e : events)
+    reconstruct(chain, b.content(), m.reconstruction);
+    for (const scifi::event& e : b.content())
       for (std::size_t k = 0; k < collect.size(); ++k) collect[k](e, b.sums[k], m.collection);
   };
   const auto add = [&](const block& b, std::uintmax_t bytes_read) {
@@ -78,7 +76,9 @@ template <class MakeChain>
     read += static_cast<long>(b.used);
     display.update(bytes_read, read);
   };
-  if (const std::exception_ptr stopped = run_ordered_blocks<block>(source, threads, work, add)) std::rethrow_exception(stopped);
+  run_ordered_blocks(reader, threads, block(), work, add);
+  interruption::throw_if_received();
+  if (reader.mistake()) std::rethrow_exception(reader.mistake());
   return sums;
 }
 
@@ -91,15 +91,13 @@ template <class MakeChain>
 }
 
 /// Pass after pass, at most `passes`, until nothing moves any more. Trackers without tracks are taken off the list. Throws std::runtime_error where the
-/// parameters cannot be found, with what is not determined.
+/// parameters cannot be found, with what is not determined, and interruption::interrupted where a signal came.
 template <class MakeChain>
 void align(const std::string& digits, int passes, int max_threads, const scifi::detector& whole, const MakeChain& make_chain, std::vector<aligned_tracker>& trackers) {
-  const int threads = max_threads > 0 ? max_threads : tbb::info::default_concurrency();
-  const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
-  tbb::task_arena arena(threads);
+  const int threads = number_of_threads(max_threads);
   const auto settled = [&trackers] { return std::all_of(trackers.begin(), trackers.end(), [](const aligned_tracker& t) { return t.work.settled(); }); };
   for (int i = 0; i < passes && !settled(); ++i) {
-    std::vector<scifi::alignment::tracker_sum> sums = arena.execute([&] { return gather(digits, whole, make_chain, trackers, threads); });
+    std::vector<scifi::alignment::tracker_sum> sums = gather(digits, whole, make_chain, trackers, threads);
     for (std::size_t k = trackers.size(); k-- > 0;) {
       aligned_tracker& t = trackers[k];
       if (sums[k].equations.tracks() == 0) {

@@ -11,7 +11,7 @@
 
 #include <scifi/event/event.hpp>
 
-#include "reconstruct/event_block.hpp"
+#include "reconstruct/track_block.hpp"
 
 /// Blocks of events as bytes for another process of the same program on a machine of the same kind: the digits one way, what was found in them the other.
 namespace block_message {
@@ -63,7 +63,7 @@ inline void take_events(std::span<const char> from, event_block& b) {
   }
 }
 
-inline void put_results(std::string& out, event_block& b) {
+inline void put_results(std::string& out, track_block& b) {
   out.clear();
   detail::put(out, &b.sum, 1);
   detail::put(out, b.tracks.data(), b.tracks.size());
@@ -72,7 +72,7 @@ inline void put_results(std::string& out, event_block& b) {
   detail::put(out, seen.data(), seen.size());
 }
 
-inline void take_results(std::span<const char> from, event_block& b) {
+inline void take_results(std::span<const char> from, track_block& b) {
   std::vector<totals> sum;
   detail::take(from, sum);
   if (sum.size() != 1) throw std::runtime_error("a message between ranks is not what was expected");

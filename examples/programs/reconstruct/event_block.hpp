@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MPL-2.0
 #pragma once
 
-#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <exception>
@@ -12,45 +11,22 @@
 
 #include <scifi/event/event.hpp>
 #include <scifi/io/input_error.hpp>
-#include <scifi/io/track_writer.hpp>
 
 #include "interruption.hpp"
 #include "reconstruct/check_sum.hpp"
 #include "reconstruct/event_source.hpp"
-#include "reconstruct/monitor.hpp"
-#include "reconstruct/totals.hpp"
 
-/// Events that are reconstructed together, and what was found in them.
+/// Events that are worked on together. Programs derive from it what they find in them.
 struct event_block {
   std::vector<scifi::event> events;  ///< `used` of them count, the others are memory to be used again
   std::size_t used = 0;
   std::uint32_t input_check = 0;  ///< check sum of the input up to the last of them
   bool whole = false;             ///< false where the input ended or went bad within it
-  std::string tracks, points;     ///< rows of tables
-  totals sum;
-  monitor::counts seen;
+
+  [[nodiscard]] std::span<scifi::event> content() { return {events.data(), used}; }
 };
 
-/// Reconstructs a block and writes the rows. Blocks are cut by their content alone, so what is found in one does not depend on who works on it.
-template <class Reconstruction>
-void work_on(event_block& b, const Reconstruction& reconstruct, typename Reconstruction::buffers& buffers, bool with_points) {
-  b.tracks.clear();
-  b.points.clear();
-  b.sum = {};
-  const std::span events(b.events.data(), b.used);
-  const auto start = std::chrono::steady_clock::now();
-  reconstruct(events, buffers);
-  b.sum.reconstruction += std::chrono::steady_clock::now() - start;
-  if (b.seen) b.seen->clear();
-  for (const scifi::event& e : events) {
-    scifi::append_tracks(b.tracks, e);
-    if (with_points) scifi::append_track_points(b.points, e);
-    b.sum.count(e);
-    if (b.seen) b.seen->add(e);
-  }
-}
-
-/// Cuts the input into blocks.
+/// Cuts the input into blocks, by their content alone: what is found in one does not depend on who works on it.
 class block_reader {
  public:
   explicit block_reader(event_source& source) : source_(source) {}

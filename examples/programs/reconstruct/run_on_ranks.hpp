@@ -18,9 +18,9 @@
 #include <mpi.h>
 
 #include "reconstruct/block_message.hpp"
-#include "reconstruct/event_block.hpp"
 #include "reconstruct/progress.hpp"
 #include "reconstruct/ranks.hpp"
+#include "reconstruct/track_block.hpp"
 #include "reconstruct/track_tables.hpp"
 #include "run_program.hpp"
 
@@ -53,11 +53,11 @@ inline void receive(const MPI_Status& status, std::vector<char>& into) {
 }
 
 /// What all ranks but the first do: reconstruct what they are sent until they are told to end. What goes wrong ends the job.
-template <class Reconstruction>
-void follow(const ranks& all, const Reconstruction& reconstruct, bool with_points, const monitor::counts& counts) {
+template <class Chain>
+void follow(const ranks& all, const Chain& chain, bool with_points, const monitor::counts& counts) {
   constexpr int leader = 0;
-  typename Reconstruction::buffers buffers;
-  event_block b;
+  typename Chain::buffers buffers;
+  track_block b;
   b.seen = counts;
   std::vector<char> in;
   std::string out;
@@ -67,7 +67,7 @@ void follow(const ranks& all, const Reconstruction& reconstruct, bool with_point
       receive(status, in);
       if (status.MPI_TAG == end) return;
       block_message::take_events(in, b);
-      work_on(b, reconstruct, buffers, with_points);
+      work_on(b, chain, buffers, with_points);
       block_message::put_results(out, b);
       MPI_Send(out.data(), length_of(out), MPI_BYTE, leader, result, MPI_COMM_WORLD);
     }
@@ -99,7 +99,7 @@ class workers {
   [[nodiscard]] std::size_t shortest_queue() const { return idlest()->size(); }
 
   /// Gives block `number` to the one that has least to do.
-  void give(std::size_t number, const event_block& b) {
+  void give(std::size_t number, const track_block& b) {
     const auto to = static_cast<std::size_t>(idlest() - queues_.begin());
     queues_[to].emplace_back();
     sent& s = queues_[to].back();
@@ -153,17 +153,17 @@ class workers {
 };
 
 /// What the first rank does: reads blocks, has them reconstructed, does some itself when all others have enough, and writes the rows in the order of the
-/// input. A fixed number of blocks is in memory. Throws as `run_pipeline`, and interruption::interrupted when a signal ends it.
-template <class Reconstruction>
-void lead(workers& others, const ranks& all, block_reader& reader, const Reconstruction& reconstruct, track_tables& tables, progress& display, const monitor::counts& counts) {
+/// input. A fixed number of blocks is in memory. Throws as `run_ordered_blocks`, and interruption::interrupted when a signal ends it.
+template <class Chain>
+void lead(workers& others, const ranks& all, block_reader& reader, const Chain& chain, track_tables& tables, progress& display, const monitor::counts& counts) {
   constexpr std::size_t enough = 3;  // blocks at a rank: as many as it may do while this one is at a block of its own
   struct slot {
-    event_block block;
+    track_block block;
     bool ready = false;
   };
   std::vector<slot> ring(enough * static_cast<std::size_t>(all.size()));
   for (slot& s : ring) s.block.seen = counts;
-  typename Reconstruction::buffers buffers;
+  typename Chain::buffers buffers;
   std::size_t next_read = 0;
   std::size_t next_written = 0;
   bool more = true;
@@ -175,7 +175,7 @@ void lead(workers& others, const ranks& all, block_reader& reader, const Reconst
       slot& s = ring[next_read % ring.size()];
       more = reader.read(s.block);
       if (!more) break;
-      if (mine) work_on(s.block, reconstruct, buffers, tables.with_points());
+      if (mine) work_on(s.block, chain, buffers, tables.with_points());
       else others.give(next_read, s.block);
       s.ready = mine;
       ++next_read;
@@ -198,9 +198,9 @@ void lead(workers& others, const ranks& all, block_reader& reader, const Reconst
 
 }  // namespace on_ranks
 #else
-#include "reconstruct/event_block.hpp"
 #include "reconstruct/progress.hpp"
 #include "reconstruct/ranks.hpp"
+#include "reconstruct/track_block.hpp"
 #include "reconstruct/track_tables.hpp"
 
 namespace on_ranks {
@@ -209,10 +209,10 @@ namespace on_ranks {
 struct workers {
   explicit workers(const ranks&) {}
 };
-template <class Reconstruction>
-void follow(const ranks&, const Reconstruction&, bool, const monitor::counts&) {}
-template <class Reconstruction>
-void lead(workers&, const ranks&, block_reader&, const Reconstruction&, track_tables&, progress&, const monitor::counts&) {}
+template <class Chain>
+void follow(const ranks&, const Chain&, bool, const monitor::counts&) {}
+template <class Chain>
+void lead(workers&, const ranks&, block_reader&, const Chain&, track_tables&, progress&, const monitor::counts&) {}
 
 }  // namespace on_ranks
 #endif

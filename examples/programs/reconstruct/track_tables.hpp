@@ -19,7 +19,7 @@
 
 #include "reconstruct/check_sum.hpp"
 #include "reconstruct/checkpoint.hpp"
-#include "reconstruct/event_block.hpp"
+#include "reconstruct/track_block.hpp"
 #include "reconstruct/monitor.hpp"
 
 /// The tables that a reconstruction writes, block by block, and a checkpoint beside them from which another run can go on: TRACKS.checkpoint, which stays
@@ -50,7 +50,7 @@ class track_tables {
   [[nodiscard]] const totals& sum() const { return at_.sum; }
 
   /// Throws std::system_error when the disk is full.
-  void write(const event_block& b) {
+  void write(const track_block& b) {
     if (!b.whole) {
       last_whole_ = at_;
       last_whole_->monitor = watch_.contents();

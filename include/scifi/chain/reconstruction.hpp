@@ -156,6 +156,12 @@ struct tracker_flight {
   double field = 0.0;  ///< mean of Bz on the axis, (MeV/c)/(e mm): pattern recognition takes its helix; zero: straight tracks
 };
 
+/// The stages of the standard chain, for bent tracks that fly so.
+template <class Flight>
+using standard_fitter = track_fitter<mean_energy_loss, highland_scattering, landau_straggling, kalman::symmetric_form, kalman::no_gate, Flight, robust_refit, fibre_probability>;
+template <class Flight>
+using standard_reconstruction = reconstruction<cluster_finder<fibre_resolution>, space_point_finder, track_finder, standard_fitter<Flight>>;
+
 /// The standard chain for trackers of scintillating fibres, with `flight_in(tracker)`, a tracker_flight, in each tracker; `options.field` is not asked.
 template <class FlightIn>
 [[nodiscard]] auto make_reconstruction(const detector& where, const reconstruction_options& options, const FlightIn& flight_in) {
@@ -166,8 +172,7 @@ template <class FlightIn>
   std::size_t stations = 1;
   for (const tracker& t : where.trackers) stations = std::max(stations, t.stations.size());
   const landau_straggling straggling{static_cast<double>(stations)};
-  using flight = decltype(flight_in(std::declval<const tracker&>()).flight);
-  using fitter = track_fitter<mean_energy_loss, highland_scattering, landau_straggling, kalman::symmetric_form, kalman::no_gate, flight, robust_refit, fibre_probability>;
+  using fitter = standard_fitter<decltype(flight_in(std::declval<const tracker&>()).flight)>;
 
   track_finder_options finding;
   finding.line_momentum = options.line_momentum;
