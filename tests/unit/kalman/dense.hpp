@@ -3,7 +3,6 @@
 
 #include <Eigen/Dense>
 
-#include <cmath>
 #include <random>
 #include <utility>
 
@@ -26,53 +25,23 @@ struct observation {
   matrix z, h, r;
 };
 
-inline matrix symmetric(const matrix& c) { return 0.5 * (c + c.transpose()); }
-
-inline matrix random_matrix(std::mt19937_64& engine, int rows, int cols) {
-  std::normal_distribution<double> normal;
-  matrix m(rows, cols);
-  for (int j = 0; j < cols; ++j)
-    for (int i = 0; i < rows; ++i) m(i, j) = normal(engine);
-  return m;
-}
+matrix symmetric(const matrix& c);
+matrix random_matrix(std::mt19937_64& engine, int rows, int cols);
 
 /// Eigenvalues from `floor` to about `floor` + 4 n.
-inline matrix random_covariance(std::mt19937_64& engine, int n, double floor = 0.1) {
-  const matrix a = random_matrix(engine, n, n);
-  return symmetric(a * a.transpose() + floor * matrix::Identity(n, n));
-}
+matrix random_covariance(std::mt19937_64& engine, int n, double floor = 0.1);
 
-inline matrix random_rotation(std::mt19937_64& engine, int n) { return matrix(Eigen::HouseholderQR<matrix>(random_matrix(engine, n, n)).householderQ()); }
+matrix random_rotation(std::mt19937_64& engine, int n);
 
-inline knowledge random_knowledge(std::mt19937_64& engine, int n) {
-  matrix mean = random_matrix(engine, n, 1);
-  return {std::move(mean), random_covariance(engine, n)};
-}
+knowledge random_knowledge(std::mt19937_64& engine, int n);
 
-inline observation random_observation(std::mt19937_64& engine, int n, int m) {
-  matrix z = random_matrix(engine, m, 1), h = random_matrix(engine, m, n);
-  return {std::move(z), std::move(h), random_covariance(engine, m)};
-}
+observation random_observation(std::mt19937_64& engine, int n, int m);
 
 /// Smallest and largest.
-inline std::pair<double, double> extreme_eigenvalues(const matrix& c) {
-  const matrix values = Eigen::SelfAdjointEigenSolver<matrix>(c, Eigen::EigenvaluesOnly).eigenvalues();
-  return {values.minCoeff(), values.maxCoeff()};
-}
+std::pair<double, double> extreme_eigenvalues(const matrix& c);
 
 /// Largest difference of two estimates, means in units of the standard deviations of `a`, covariances as correlations.
-inline double distance(const knowledge& a, const knowledge& b) {
-  double worst = 0.0;
-  const auto widen = [&worst](double d) {
-    if (!(std::abs(d) <= worst)) worst = std::abs(d);
-  };
-  for (Eigen::Index i = 0; i < a.mean.size(); ++i) {
-    const double sigma = std::sqrt(a.covariance(i, i));
-    widen((a.mean(i) - b.mean(i)) / sigma);
-    for (Eigen::Index j = 0; j < a.mean.size(); ++j) widen((a.covariance(i, j) - b.covariance(i, j)) / (sigma * std::sqrt(a.covariance(j, j))));
-  }
-  return worst;
-}
+double distance(const knowledge& a, const knowledge& b);
 
 template <int Rows, int Cols>
 [[nodiscard]] scifi::matrix<double, Rows, Cols> fixed(const matrix& m) {

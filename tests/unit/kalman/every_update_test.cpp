@@ -16,6 +16,7 @@
 #include <scifi/kalman/square_root.hpp>
 #include <scifi/kalman/symmetric_form.hpp>
 
+#include "unit/kalman/batch.hpp"
 #include "unit/kalman/dense.hpp"
 
 namespace kalman = scifi::kalman;

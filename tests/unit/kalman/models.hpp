@@ -5,7 +5,6 @@
 
 #include <cmath>
 #include <random>
-#include <vector>
 
 #include <scifi/core/linalg.hpp>
 #include <scifi/kalman/model_value.hpp>
@@ -75,51 +74,14 @@ scifi::matrix<double, Rows, Cols> random_matrix(std::mt19937_64& engine) {
   return m;
 }
 
-/// A covariance with eigenvalues of at least `floor`.
+/// A covariance with eigenvalues of at least `floor`: A A' + floor.
 template <int N>
 scifi::matrix<double, N, N> random_covariance(std::mt19937_64& engine, double floor = 0.1) {
   const scifi::matrix<double, N, N> a = random_matrix<N, N>(engine);
-  const scifi::matrix<double, N, N> c = a * a.transpose() + floor * scifi::matrix<double, N, N>::Identity();
-  return 0.5 * (c + c.transpose());
+  scifi::matrix<double, N, N> c;
+  for (int i = 0; i < N; ++i)
+    for (int j = 0; j <= i; ++j) c(i, j) = c(j, i) = a.row(i).dot(a.row(j)) + (i == j ? floor : 0.0);
+  return c;
 }
-
-/// Weighted least squares over all states at once: rows are whitened and stacked, then solved by Eigen's QR.
-/// Unknowns are `states` vectors of n components, one after the other.
-class batch {
- public:
-  batch(int states, int n) : n_(n), columns_(states * n) {}
-
-  /// Adds rows a x = b with covariance c, where a acts on the states from index `first` on.
-  void add(int first, const Eigen::MatrixXd& a, const Eigen::VectorXd& b, const Eigen::MatrixXd& c) {
-    const Eigen::MatrixXd l = c.llt().matrixL();
-    const Eigen::MatrixXd wa = l.triangularView<Eigen::Lower>().solve(a);
-    const Eigen::VectorXd wb = l.triangularView<Eigen::Lower>().solve(b);
-    const Eigen::Index old = a_.rows();
-    a_.conservativeResize(old + a.rows(), columns_);
-    b_.conservativeResize(old + a.rows());
-    a_.bottomRows(a.rows()).setZero();
-    a_.block(old, first * n_, a.rows(), a.cols()) = wa;
-    b_.tail(a.rows()) = wb;
-  }
-
-  void solve() {
-    const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(a_);
-    x_ = qr.solve(b_);
-    chi2_ = (a_ * x_ - b_).squaredNorm();
-    const Eigen::MatrixXd r = Eigen::HouseholderQR<Eigen::MatrixXd>(a_).matrixQR().topRows(columns_).triangularView<Eigen::Upper>();
-    const Eigen::MatrixXd inverse = r.triangularView<Eigen::Upper>().solve(Eigen::MatrixXd::Identity(columns_, columns_));
-    covariance_ = inverse * inverse.transpose();
-  }
-
-  Eigen::VectorXd mean(int state) const { return x_.segment(state * n_, n_); }
-  Eigen::MatrixXd covariance(int state) const { return covariance_.block(state * n_, state * n_, n_, n_); }
-  double chi2() const { return chi2_; }
-
- private:
-  int n_, columns_;
-  Eigen::MatrixXd a_, covariance_;
-  Eigen::VectorXd b_, x_;
-  double chi2_ = 0.0;
-};
 
 }  // namespace models

@@ -15,6 +15,7 @@
 #include <scifi/kalman/square_root.hpp>
 
 #include "laws/update_laws.hpp"
+#include "unit/kalman/batch.hpp"
 #include "unit/kalman/models.hpp"
 
 namespace kalman = scifi::kalman;

@@ -14,6 +14,7 @@
 #include <scifi/kalman/site.hpp>
 #include <scifi/kalman/smoother.hpp>
 
+#include "unit/kalman/batch.hpp"
 #include "unit/kalman/dense.hpp"
 
 namespace kalman = scifi::kalman;
