@@ -2,7 +2,7 @@
 #pragma once
 
 /// Everything that needs Eigen alone: the filter, the track models, geometry, simulation and reconstruction.
-/// Left out on purpose: `scifi/io` (files: nlohmann-json, zlib) and `kalman/automatic_jacobian.hpp` (Eigen's unsupported AutoDiff); include what you use.
+/// Left out on purpose: `scifi/alignment` (decompositions of matrices of any size: slow to compile), `scifi/io` (files: nlohmann-json, zlib) and `kalman/automatic_jacobian.hpp` (Eigen's unsupported AutoDiff); include what you use.
 #include <scifi/candidate_to_track/track_fitter.hpp>
 #include <scifi/chain/reconstruction.hpp>
 #include <scifi/cluster_to_space_point/space_point_finder.hpp>

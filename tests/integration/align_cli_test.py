@@ -191,21 +191,21 @@ class Align(programs.InAFolder):
     def check_over_seeds(self, seeds, *simulated, aligned=()):
         """Both trackers, their inner stations displaced to sides that the seed says: errors made over errors stated."""
         squares, free, beyond_3 = 0.0, 0, 0
-        for seed in range(1, seeds + 1):
+        for seed in seeds:
             side = random.Random(seed).choice
             moved = {tracker: {station: (side((-0.5, 0.5)), side((-0.5, 0.5)), side((-0.005, 0.005))) for station in (2, 3, 4)} for tracker in (0, 1)}
             self.write("real.json", json.dumps(misaligned(self.nominal, moved)))
             self.good("scifi-simulate", "--geometry", "real.json", "--seed", seed, "--output", "seed", *simulated)
             self.align("--output", "found.json", "--parameters", "found_parameters.json", *aligned, digits="seed_digits.csv")
             for tracker in self.document("found_parameters.json")["trackers"]:
-                self.assertTrue(tracker["settled"])
+                self.assertTrue(tracker["settled"], f"seed {seed}")
                 at = [i for i, p in enumerate(tracker["parameters"]) if p["station"] in (2, 3, 4)]
                 of = [tracker["parameters"][i] for i in at]
                 errors = [p["value"] - moved[tracker["tracker"]][p["station"]][("x", "y", "rotation").index(p["motion"])] for p in of]
                 squares += squares_over_covariance(errors, [[tracker["covariance"][i][j] for j in at] for i in at])
                 free += len(errors)
                 beyond_3 += sum(abs(e) > 3.0 * p["sigma"] for e, p in zip(errors, of))
-        self.assertEqual(free, 18 * seeds)
+        self.assertEqual(free, 18 * len(seeds))
         # Whitened by their covariance the pulls are independent: the mean of their squares is known to sqrt(2/n). Four of those, and 10 % either way for the
         # width of the scattering: Highland's formula is 4 % too wide for the core and too narrow for the tails.
         width = math.sqrt(squares / free)
@@ -215,10 +215,12 @@ class Align(programs.InAFolder):
         return width, free, beyond_3
 
     def test_errors_made_are_the_errors_stated_with_straight_tracks(self):
-        self.check_over_seeds(24, "--events", 300, *STRAIGHT)
+        # With the last three a track has 15 planes here and 12 there, from pass to pass.
+        self.check_over_seeds([*range(1, 38), 94, 157, 204], "--events", 300, *STRAIGHT)
 
     def test_errors_made_are_the_errors_stated_with_helices(self):
-        self.check_over_seeds(12, "--events", 350, "--field", 3, aligned=("--field", 3))
+        # With the last two as well, or its momentum is known well enough here and not there.
+        self.check_over_seeds([*range(1, 11), 116, 145], "--events", 350, "--field", 3, aligned=("--field", 3))
 
     def expect_refused(self, result, message, status=2):
         self.assertEqual(result.returncode, status, result.stderr)

@@ -5,6 +5,8 @@
 #include <cstddef>
 #include <vector>
 
+#include <scifi/geometry/mice.hpp>
+
 #include "simulated_tracks.hpp"
 #include "support/catch.hpp"
 
@@ -64,7 +66,59 @@ void check_recovered(int id, double field) {
   }
 }
 
+/// A pass that says of every parameter where it should be, in errors from where it began; its chi2 are `scale` times those expected.
+tracker_sum pass_that_asks(const tracker_alignment& a, double target, double scale) {
+  const int n = a.parameters().size();
+  constexpr double sigma = 0.01;
+  reduced_track track;
+  track.rows = Eigen::MatrixXd::Identity(n, n) / sigma;
+  track.residuals = Eigen::VectorXd::Constant(n, target) - a.moved() / sigma;
+  track.own = Eigen::VectorXd::Constant(n, 1.0 / (sigma * sigma));
+  for (int i = 0; i < n; ++i) track.parameters.push_back(i);
+  tracker_sum out(n);
+  out.equations.add(track);
+  for (int i = 0; i < 9; ++i) out.scale.add(10.0 * scale, 10);
+  return out;
+}
+
 }  // namespace
+
+TEST_CASE("nothing is settled while the cut on chi2 closes", "[alignment]") {
+  tracker_alignment a(mice::trackers().trackers.front(), {}, frame::none, {});
+  int steps = 0;
+  for (const double scale : {3.0, 2.0, 1.5}) {
+    a.step(pass_that_asks(a, 0.0, scale));
+    REQUIRE(a.last().status == failure::none);
+    CHECK(a.steps() == ++steps);
+    CHECK_FALSE(a.settled());
+  }
+  a.step(pass_that_asks(a, 0.0, 1.5));
+  CHECK(a.settled());
+}
+
+TEST_CASE("passes that go to and fro, for a track that is taken in one geometry and not in the other, come to rest between", "[alignment]") {
+  for (const int period : {2, 3, 5}) {
+    tracker_alignment a(mice::trackers().trackers.front(), {}, frame::none, {});
+    int steps = 0;
+    while (!a.settled() && steps < 20) {
+      // One track: half an error here, half an error there.
+      a.step(pass_that_asks(a, 2.0 + (steps % period == 0 ? 0.25 : -0.25), 1.0));
+      ++steps;
+      REQUIRE(a.last().status == failure::none);
+    }
+    INFO(period << ", " << steps << " steps");
+    CHECK(steps <= 10);
+    CHECK((a.moved() / a.last().sigma(0) - Eigen::VectorXd::Constant(a.moved().size(), 2.0)).cwiseAbs().maxCoeff() <= 0.25);
+  }
+}
+
+TEST_CASE("steps that become shorter from pass to pass are taken whole", "[alignment]") {
+  tracker_alignment a(mice::trackers().trackers.front(), {}, frame::none, {});
+  for (const double target : {8.0, 11.0, 12.2, 12.6}) {
+    a.step(pass_that_asks(a, target, 1.0));
+    CHECK(a.moved()[3] / a.last().sigma(3) == Approx(target));
+  }
+}
 
 TEST_CASE("displaced stations are found with straight tracks", "[alignment]") { check_recovered(mice::downstream, 0.0); }
 
