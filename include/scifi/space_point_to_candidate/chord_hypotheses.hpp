@@ -8,6 +8,7 @@
 #include <scifi/core/constants.hpp>
 #include <scifi/core/inline_vector.hpp>
 #include <scifi/space_point_to_candidate/arc_fit.hpp>
+#include <scifi/space_point_to_candidate/chord_turn.hpp>
 #include <scifi/space_point_to_candidate/station_scattering.hpp>
 #include <scifi/space_point_to_candidate/track_finder_options.hpp>
 
@@ -29,18 +30,11 @@ class chord_hypotheses {
   using list = inline_vector<curvature_hypothesis, 8>;
 
   /// `first` and `middle` are the indices of the first two stations, for their scattering; `gate` is the largest squared deviation of the length.
-  chord_hypotheses(const track_finder_options& options, const station_scattering& scattering, std::size_t first, std::size_t middle, double z1, double z2, double z3, double gate)
-      : options_(options), scattering_(scattering), middle_(middle), step1_(z2 - z1), step2_(z3 - z2), gate_(gate), largest_(std::abs(options.field) / options.smallest_pz) {
+  chord_hypotheses(const track_finder_options& options, const station_scattering& scattering, std::size_t first, std::size_t middle, const chord_turn& turn, double gate)
+      : options_(options), scattering_(scattering), middle_(middle), turn_(turn), gate_(gate), largest_(std::abs(options.field) / options.smallest_pz) {
     const double slowest = 1.0 / (options.prior.typical + options.prior.spread);
-    widest_scatter_ = scattering.slope_variance(middle, slowest, 0.0) * square(step2_);
-    angle_scatter_ = scattering.slope_variance(first, expected_momentum(options, 0.0, 0.0), 0.0) * square(step1_ + step2_);
-    shortest_ratio_ = longest_ratio_ = step2_ / step1_;
-    constexpr int steps = 32;
-    for (int i = 1; i <= steps; ++i) {
-      const double ratio = std::abs(ratio_at(largest_ * i / steps));
-      shortest_ratio_ = std::min(shortest_ratio_, ratio);
-      longest_ratio_ = std::max(longest_ratio_, ratio);
-    }
+    widest_scatter_ = scattering.slope_variance(middle, slowest, 0.0) * square(turn.step2());
+    angle_scatter_ = scattering.slope_variance(first, expected_momentum(options, 0.0, 0.0), 0.0) * square(turn.step1() + turn.step2());
   }
 
   [[nodiscard]] list operator()(const arc_point& a, const arc_point& b, const arc_point& c) const {
@@ -50,22 +44,22 @@ class chord_hypotheses {
     const double length1 = std::sqrt(norm(first));
     const double length2 = std::sqrt(norm(second));
     // Before any angle is taken: a length that no curvature explains.
-    const double slack = std::sqrt(gate_ * (blur(a, b, c, longest_ratio_) + widest_scatter_));
-    if (length2 < shortest_ratio_ * length1 - slack || length2 > longest_ratio_ * length1 + slack) return out;
+    const double slack = std::sqrt(gate_ * (blur(a, b, c, turn_.longest_ratio()) + widest_scatter_));
+    if (length2 < turn_.shortest_ratio() * length1 - slack || length2 > turn_.longest_ratio() * length1 + slack) return out;
 
-    const double half = 0.5 * (step1_ + step2_);
+    const double half = turn_.half();
     const planar<double> product = conjugate(first) * second;
     const double angle = -std::atan2(product.y, product.x);  // w half, modulo a turn; half a turn off where one of the chords has passed a whole turn
     constexpr double most_turns = 100.0;
     const int turns = static_cast<int>(std::fmax(std::fmin(std::ceil(largest_ * half / (2.0 * constants::pi)), most_turns), 0.0));
-    const int step = largest_ * std::max(step1_, step2_) < 2.0 * constants::pi ? 2 : 1;
+    const int step = largest_ * std::max(turn_.step1(), turn_.step2()) < 2.0 * constants::pi ? 2 : 1;
     for (int n = -2 * turns; n <= 2 * turns; n += step) {
       const double w = (angle + n * constants::pi) / half;
       if (std::abs(w) > largest_) continue;
-      const double signed_ratio = ratio_at(w);
+      const double signed_ratio = turn_.ratio(w);
       if ((signed_ratio < 0.0) != (n % 2 != 0)) continue;
       const double ratio = std::abs(signed_ratio);
-      const double scatter = scattering_.slope_variance(middle_, expected_momentum(options_, w, 0.0), 0.0) * square(step2_);
+      const double scatter = scattering_.slope_variance(middle_, expected_momentum(options_, w, 0.0), 0.0) * square(turn_.step2());
       if (square(length2 - ratio * length1) < gate_ * (blur(a, b, c, ratio) + scatter)) out.push_back({w, 1});
     }
     constexpr double clear = 16.0;  // a chord of four standard deviations has a direction
@@ -80,22 +74,15 @@ class chord_hypotheses {
   [[nodiscard]] static double blur(const arc_point& a, const arc_point& b, const arc_point& c, double ratio) {
     return a.variance * square(ratio) + b.variance * square(1.0 + ratio) + c.variance;
   }
-  /// Length of the chord over dz per unit of slope, signed.
-  [[nodiscard]] static double chord(double w, double dz) {
-    const double x = 0.5 * w * dz;
-    return std::abs(x) < 1e-6 ? dz : dz * std::sin(x) / x;
-  }
-  [[nodiscard]] double ratio_at(double w) const { return chord(w, step2_) / chord(w, step1_); }
 
   const track_finder_options& options_;
   const station_scattering& scattering_;
   std::size_t middle_;
-  double step1_, step2_;
+  const chord_turn& turn_;
   double gate_;
   double largest_;         // curvature
   double widest_scatter_;  // mm^2, of the second chord
   double angle_scatter_;   // mm^2
-  double shortest_ratio_, longest_ratio_;
 };
 
 }  // namespace scifi

@@ -33,6 +33,14 @@ class station_scattering {
     return at_reference_[index] / p_beta2(p) * std::sqrt(1.0 + t2) * (1.0 + t2) * (1.0 + 0.5 * t2);
   }
 
+  /// The same for a track along z as a factor that all stations share, times a constant of each: `slope_variance(i, p, 0) = of_momentum(1/p) * of_station(i)`. No root, no division.
+  [[nodiscard]] double of_momentum(double inverse_momentum) const {
+    const double k2 = inverse_momentum * inverse_momentum;
+    return k2 * (1.0 + mass2_ * k2);
+  }
+  [[nodiscard]] double mass2() const { return mass2_; }  ///< (MeV/c)^2
+  [[nodiscard]] double of_station(std::size_t index) const { return at_reference_[index]; }
+
  private:
   static constexpr double reference_momentum = 200.0;  // MeV/c
   [[nodiscard]] double p_beta2(double p) const { return p * p * (p * p / (p * p + mass2_)); }

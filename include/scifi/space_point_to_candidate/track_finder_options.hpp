@@ -22,11 +22,14 @@ struct track_finder_options {
   double tight_point_chi2 = 9.0;   ///< ... and largest chi2 of a space point (one degree of freedom, p = 0.003): above it lie half of the false crossings
   double gate = 30.0;              ///< the same (p = 3e-7) ...
   double chi2_per_ndf = 12.0;      ///< ... in the second search, for tracks that scattered hard
+  double sure_chi2_per_ndf = 2.5;  ///< largest chi2 of a candidate, points and arc, in the search for sure ones that comes first where points crowd ...
+  long crowd = 1000;               ///< ... which is where the first three stations have more triples of points than this: about six tracks
   double cluster_gain = 10.0;      ///< chi2 that one cluster more is worth when candidates compete
   q_over_pz_prior prior{};         ///< of either sign of curvature
   double dim_light = 5.0;          ///< photo-electrons per cluster below which a space point may be noise: a particle leaves about 12, thermal noise 2 to 3
   int max_dim_points = 1;          ///< such points in a candidate
   int max_shared_clusters = 3;     ///< with better candidates: two tracks may cross the same channel
+  int max_shared_of_sure = 6;      ///< where sure ones are chosen together
   int max_arc_fits = 100000;       ///< bound on the search in one tracker ...
   long max_looks = 20'000'000;     ///< ... and on the space points that it looks at, each time it does
 
@@ -43,12 +46,18 @@ struct track_finder_options {
   }
 };
 
-/// Momentum (MeV/c) to be expected of a track with curvature w (rad/mm) and squared slope t2: bounded, so that an unbent track is not taken for
-/// one that does not scatter; the momentum given where there is no field.
+/// 1 / momentum (c/MeV) along z to be expected of a track with curvature w (rad/mm): bounded, so that an unbent track is not taken for one that does not
+/// scatter; that of the momentum given where there is no field.
+[[nodiscard]] inline double expected_inverse_momentum(const track_finder_options& o, double w) {
+  if (o.field == 0.0) return 1.0 / o.line_momentum;
+  const double least = 0.5 * (o.prior.typical - 0.75 * o.prior.spread);
+  return std::clamp(std::abs(w / o.field), least, 1.0 / o.smallest_pz);
+}
+
+/// Momentum (MeV/c) to be expected of a track with curvature w (rad/mm) and squared slope t2.
 [[nodiscard]] inline double expected_momentum(const track_finder_options& o, double w, double t2) {
   if (o.field == 0.0) return o.line_momentum;
-  const double least = 0.5 * (o.prior.typical - 0.75 * o.prior.spread);
-  return std::sqrt(1.0 + t2) / std::clamp(std::abs(w / o.field), least, 1.0 / o.smallest_pz);
+  return std::sqrt(1.0 + t2) / expected_inverse_momentum(o, w);
 }
 
 }  // namespace scifi

@@ -250,6 +250,32 @@ TEST_CASE("a track that left before it reached the first station is a candidate 
   CHECK(e.track_points.empty());
 }
 
+TEST_CASE("the stages that the chain shows, called one after the other, make what it makes", "[chain]") {
+  const auto chain = make_reconstruction(where, in_field(three_tesla));
+  event whole = simulated(5, 3, three_tesla);
+  event parts = whole;
+  chain(whole);
+  REQUIRE(whole.tracks.size() >= 4);
+  decltype(chain)::buffers work;
+  CHECK(chain.clusters()(chain.where(), parts.digits, parts.clusters));
+  for (const auto& s : chain.trackers()) {
+    CHECK(chain.space_points()(s.where, parts.clusters, parts.space_points, work.space_points));
+    CHECK(s.find_candidates(parts.space_points, parts.clusters.size(), parts.candidates, work.candidates));
+  }
+  REQUIRE(parts.clusters.size() == whole.clusters.size());
+  for (std::size_t i = 0; i < parts.clusters.size(); ++i) CHECK(parts.clusters[i].alpha == whole.clusters[i].alpha);
+  REQUIRE(parts.space_points.size() == whole.space_points.size());
+  for (std::size_t i = 0; i < parts.space_points.size(); ++i) CHECK(parts.space_points[i].position == whole.space_points[i].position);
+  REQUIRE(parts.candidates.size() == whole.candidates.size());
+  for (std::size_t i = 0; i < parts.candidates.size(); ++i) CHECK(parts.candidates[i].seed.mean == whole.candidates[i].seed.mean);
+  // And they are as the options have them.
+  reconstruction_options bright = in_field(three_tesla);
+  bright.min_npe = 4.5;
+  const auto other = make_reconstruction(where, bright);
+  CHECK(other.clusters().min_npe == 4.5);
+  CHECK(other.space_points().use == cluster_use::shared);
+}
+
 TEST_CASE("every stage can be replaced", "[chain]") {
   struct one_cluster {
     bool operator()(const detector&, std::vector<digit>&, std::vector<cluster>& out) const {

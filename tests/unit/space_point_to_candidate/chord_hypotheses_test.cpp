@@ -41,7 +41,8 @@ std::array<arc_point, 3> points(double field, double q_over_pz, double slope, co
 }
 
 chord_hypotheses::list hypotheses(const search& s, const std::array<arc_point, 3>& p) {
-  const chord_hypotheses make(s.options, s.scattering, 0, 1, p[0].z, p[1].z, p[2].z, s.options.gate);
+  const chord_turn turn(p[1].z - p[0].z, p[2].z - p[1].z, std::abs(s.options.field) / s.options.smallest_pz);
+  const chord_hypotheses make(s.options, s.scattering, 0, 1, turn, s.options.gate);
   return make(p[0], p[1], p[2]);
 }
 

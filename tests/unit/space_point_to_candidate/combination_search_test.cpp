@@ -3,64 +3,20 @@
 
 #include <vector>
 
-#include <scifi/core/units.hpp>
-#include <scifi/geometry/mice.hpp>
-#include <scifi/track_model/helix_propagator.hpp>
-
 #include "support/catch.hpp"
+#include "support/helix_points.hpp"
 
 using namespace scifi;
 
 namespace {
 
-const double field = 3.0 * units::tesla;
-
-/// The five points of an exact helix, each of three clusters of its own, numbered on from `first_cluster`.
-void add_helix(const vector<double, 5>& start, int first_cluster, std::vector<space_point>& points) {
-  const tracker t = mice::trackers().trackers[1];
-  for (const station& s : t.stations) {
-    space_point p;
-    p.tracker = t.id;
-    p.station = s.id;
-    p.z = s.in_tracker.origin.z() + 1.0;
-    const vector<double, 5> at = helix_propagator{field}.propagate(start, p.z).state;
-    p.position = {at[slope_state::x], at[slope_state::y]};
-    p.covariance = 0.12 * matrix<double, 2, 2>::Identity();
-    p.npe = 36.0;
-    for (int i = 0; i < 3; ++i) p.clusters.push_back(first_cluster++);
-    points.push_back(p);
-  }
-}
-
-struct bench {
-  search_setting setting;
-  std::vector<space_point> points;
-  search_buffers work;
-
+struct bench : test::helix_points {
   explicit bench(int helices) {
-    const tracker t = mice::trackers().trackers[1];
-    setting = {t.id, t.beam_direction, {}, station_scattering(t, muon_plus, highland_scattering{}), {}};
-    setting.options.field = field;
-    for (const station& s : t.stations) setting.stations.push_back(s.id);
-    vector<double, 5> start;
-    start << 20.0, 0.12, -30.0, 0.05, 1.0 / 190.0;
-    for (int i = 0; i < helices; ++i) {
-      add_helix(start, 15 * i, points);
-      start[slope_state::x] -= 70.0;
-      start[slope_state::q_over_pz] *= -1.1;
-    }
-    for (const space_point& p : points) work.arc_points.push_back({{p.position.x(), p.position.y()}, 0.12, p.z});
-    work.points.resize(setting.stations.size());
-    work.cluster_used.assign(points.size() * 3, 0);
+    double x = 20.0, q_over_pz = 1.0 / 190.0;
+    for (int i = 0; i < helices; ++i, x -= 70.0, q_over_pz *= -1.1) add(x, 0.12, -30.0, 0.05, q_over_pz);
+    prepare();
   }
 };
-
-/// True if the candidate's points are those of one helix.
-bool pure(const candidate& c) {
-  for (const int point : c.space_points)
-    if (point / 5 != c.space_points[0] / 5) return false;
-  return true;
-}
 
 }  // namespace
 
@@ -70,7 +26,7 @@ TEST_CASE("a search through all stations finds each helix, with its curvature, a
   search(5, true);
   int found = 0;
   for (const candidate& c : b.work.found) {
-    if (!pure(c)) continue;
+    if (!bench::pure(c)) continue;
     ++found;
     CHECK(c.chi2 < 1.0);
     CHECK(c.ndf == 5 + 5);
@@ -146,4 +102,18 @@ TEST_CASE("looking has a bound of its own: points that are too dim for any arc f
   combination_search poor(b.setting, b.points, b.work);
   poor(5, false);
   CHECK_FALSE(poor.complete());
+}
+
+TEST_CASE("the first, tight search leaves out points whose crossing is worse than tight_point_chi2, the wide one does not", "[space_point_to_candidate]") {
+  bench b(1);
+  combination_search search(b.setting, b.points, b.work);
+  b.points[2].chi2 = b.setting.options.tight_point_chi2;
+  search(5, true);
+  CHECK(b.work.found.size() == 1);
+  b.points[2].chi2 += 0.1;
+  search(5, true);
+  CHECK(b.work.found.empty());
+  search(5, false);
+  REQUIRE(b.work.found.size() == 1);
+  CHECK(b.work.found[0].chi2 >= b.points[2].chi2);
 }

@@ -44,3 +44,10 @@ TEST_CASE("nothing scatters where the policy says so", "[space_point_to_candidat
   const station_scattering table(where, muon_plus, no_scattering{});
   CHECK(table.slope_variance(2, 150.0, 0.1) == 0.0);
 }
+
+TEST_CASE("along z the variance is a factor of the momentum times one of the station", "[space_point_to_candidate]") {
+  const station_scattering table(where, muon_plus, highland_scattering{});
+  for (const double p : {50.0, 120.0, 200.0, 1000.0})
+    for (std::size_t i = 0; i < where.stations.size(); ++i) CHECK(table.of_momentum(1.0 / p) * table.of_station(i) == Approx(table.slope_variance(i, p, 0.0)).epsilon(1e-12));
+  CHECK(table.mass2() == Approx(square(muon_plus.mass)));
+}

@@ -15,6 +15,9 @@ TEST_CASE("the expected momentum follows from curvature and slope, within bounds
   CHECK(expected_momentum(o, -o.field / 200.0, 0.0) == Approx(200.0));
   CHECK(expected_momentum(o, o.field / 1.0, 0.0) == o.smallest_pz);
   CHECK(std::isfinite(expected_momentum(o, 0.0, 0.0)));
+  CHECK(expected_inverse_momentum(o, o.field / 200.0) == Approx(1.0 / 200.0));
+  CHECK(expected_inverse_momentum(o, -o.field) == 1.0 / o.smallest_pz);
   o.field = 0.0;
   CHECK(expected_momentum(o, 0.0, 0.1) == o.line_momentum);
+  CHECK(expected_inverse_momentum(o, 0.0) == 1.0 / o.line_momentum);
 }
