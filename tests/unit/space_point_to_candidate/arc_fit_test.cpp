@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <cstdint>
 #include <limits>
 #include <vector>
 
@@ -29,7 +30,8 @@ std::vector<arc_point> points_of(double w, complex slope, double noise, std::uin
     const complex i(0.0, 1.0);
     const complex lever = w == 0.0 ? complex(z) : (1.0 - std::exp(-i * w * z)) / (i * w);
     const double variance = random.uniform(0.05, 0.3);
-    const complex p = complex(3.0, -7.0) + lever * slope + noise * std::sqrt(variance) * complex(random.normal(), random.normal());
+    const double dx = random.normal(), dy = random.normal();
+    const complex p = complex(3.0, -7.0) + lever * slope + noise * std::sqrt(variance) * complex(dx, dy);
     out.push_back({{p.real(), p.imag()}, variance, z});
   }
   return out;
@@ -180,12 +182,16 @@ TEST_CASE("Gauss-Newton in the curvature converges to the minimum of chi2", "[sp
 }
 
 TEST_CASE("the predicted chi2 after the step is the one found there", "[space_point_to_candidate]") {
-  const std::vector<arc_point> points = points_of(0.005, {0.2, 0.1}, 1.0, 21);
   const arc_prior prior{0.09, 0.0054, 0.0036 * 0.0036};
-  const arc_fit near = filtered(points, prior, 0.00502, 0.0);
-  const arc_fit there = filtered(points, prior, near.curvature() + near.curvature_step(), 0.0);
-  CHECK(near.chi2_after_step() < near.chi2());
-  CHECK(there.chi2() == Approx(near.chi2_after_step()).epsilon(0.02));
+  for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+    const std::vector<arc_point> points = points_of(0.005, {0.2, 0.1}, 1.0, seed);
+    const arc_fit near = filtered(points, prior, 0.00502, 0.0);
+    const arc_fit there = filtered(points, prior, near.curvature() + near.curvature_step(), 0.0);
+    CHECK(near.chi2_after_step() < near.chi2());
+    // The gains are held fixed: their change with the curvature, times the residuals, is left out of the first derivative.
+    const double decrease = near.chi2() - near.chi2_after_step();
+    CHECK(std::abs(there.chi2() - near.chi2_after_step()) < 0.2 * std::sqrt(decrease * near.chi2()));
+  }
 }
 
 TEST_CASE("the derivatives are those of the state with the curvature, where nothing but the points decides", "[space_point_to_candidate]") {
