@@ -65,23 +65,35 @@ struct cluster_finder {
     return lower == upper;
   }
 
-  /// Clusters of the run [begin, end): the brightest channel takes its brighter neighbour, what is left on either side is cut again.
+  /// Clusters of the run [begin, end), in order of channel.
   template <class Digit>
   void cut(const plane& p, std::span<const Digit> digits, std::size_t begin, std::size_t end, std::vector<cluster>& clusters) const {
-    if (begin == end) return;
-    if (end - begin <= 2) {
-      clusters.push_back(make(p, digits, begin, end));
-      return;
-    }
+    const auto first = static_cast<std::ptrdiff_t>(clusters.size());
+    take_brightest(p, digits, begin, end, clusters);
+    if (end - begin > 2) std::sort(clusters.begin() + first, clusters.end(), [](const cluster& a, const cluster& b) { return a.first_digit < b.first_digit; });
+  }
+
+  /// The brightest channel takes its brighter neighbour, what is left on either side is cut again: the shorter side first, by a call of this function,
+  /// which goes no deeper than the logarithm of the length.
+  template <class Digit>
+  void take_brightest(const plane& p, std::span<const Digit> digits, std::size_t begin, std::size_t end, std::vector<cluster>& clusters) const {
     const auto brighter = [&digits](std::size_t a, std::size_t b) { return light_of(digits[a]) < light_of(digits[b]); };
-    std::size_t seed = begin;
-    for (std::size_t i = begin; i < end; ++i)
-      if (brighter(seed, i)) seed = i;
-    const bool left = seed > begin && (seed + 1 == end || brighter(seed + 1, seed - 1));
-    const std::size_t first = left ? seed - 1 : seed;
-    cut(p, digits, begin, first, clusters);
-    clusters.push_back(make(p, digits, first, first + 2));
-    cut(p, digits, first + 2, end, clusters);
+    while (end - begin > 2) {
+      std::size_t seed = begin;
+      for (std::size_t i = begin; i < end; ++i)
+        if (brighter(seed, i)) seed = i;
+      const bool left = seed > begin && (seed + 1 == end || brighter(seed + 1, seed - 1));
+      const std::size_t first = left ? seed - 1 : seed;
+      clusters.push_back(make(p, digits, first, first + 2));
+      if (first - begin < end - first - 2) {
+        take_brightest(p, digits, begin, first, clusters);
+        begin = first + 2;
+      } else {
+        take_brightest(p, digits, first + 2, end, clusters);
+        end = first;
+      }
+    }
+    if (begin < end) clusters.push_back(make(p, digits, begin, end));
   }
 
   template <class Digit>

@@ -85,6 +85,44 @@ TEST_CASE("a longer run is cut from its brightest channel outwards into pairs an
   CHECK(channels(of_run({3.0, 4.0, 9.0, 5.0, 3.0})) == std::vector<double>{50.5, 52.5, 54.0});
 }
 
+namespace {
+
+/// First channels of the clusters of light[begin, end), as the rule says it.
+void by_the_rule(const std::vector<double>& light, int begin, int end, std::vector<int>& out) {
+  if (begin == end) return;
+  if (end - begin <= 2) return out.push_back(begin);
+  const auto at = [&light](int i) { return light[static_cast<std::size_t>(i)]; };
+  int seed = begin;
+  for (int i = begin; i < end; ++i)
+    if (at(i) > at(seed)) seed = i;
+  const bool left = seed > begin && (seed + 1 == end || at(seed - 1) > at(seed + 1));
+  by_the_rule(light, begin, left ? seed - 1 : seed, out);
+  out.push_back(left ? seed - 1 : seed);
+  by_the_rule(light, left ? seed + 1 : seed + 2, end, out);
+}
+
+}  // namespace
+
+TEST_CASE("runs of any length and shape are cut by the rule, in order", "[digit_to_cluster]") {
+  const auto check = [](const std::vector<double>& light) {
+    std::vector<int> expected, got;
+    by_the_rule(light, 0, static_cast<int>(light.size()), expected);
+    for (const cluster& c : of_run(light)) got.push_back(c.first_digit);
+    CHECK(got == expected);
+  };
+  for (std::size_t n = 1; n <= 120; ++n) {
+    std::vector<double> rising, falling, uneven;
+    for (std::size_t i = 0; i < n; ++i) {
+      rising.push_back(3.0 + static_cast<double>(i));
+      falling.push_back(300.0 - static_cast<double>(i));
+      uneven.push_back(3.0 + static_cast<double>(i * i * 37 % 101));
+    }
+    check(rising);
+    check(falling);
+    check(uneven);
+  }
+}
+
 TEST_CASE("every digit of a run is in exactly one cluster, with its light", "[digit_to_cluster]") {
   for (std::size_t n = 1; n <= 9; ++n) {
     std::vector<double> light;
