@@ -63,3 +63,26 @@ TEST_CASE("on the axis of a sheet the field is that of two cosines, and a long o
   CHECK(longest.at(70.0, 0.0).along == Approx(0.9).epsilon(1e-8));
   CHECK(std::abs(longest.at(170.0, 0.0).along) < 1e-8);
 }
+
+TEST_CASE("far away a sheet is a dipole, at any distance", "[field]") {
+  const current_sheet sheet{260.0, 150.0, 0.9};
+  // The loops, each exact in itself, where double precision leaves them enough; beyond, the law that they follow there.
+  for (const double distance : {1e5, 3.9e5, 4.3e5, 1e6}) {
+    for (const double cosine : {0.0, 0.3, -0.8, 1.0}) {
+      const double r = distance * std::sqrt(1.0 - cosine * cosine), z = distance * cosine;
+      const vector<double, 2> loops = by_loops(sheet, r, z);
+      const axial_field<double> got = sheet.at(r, z);
+      const double size = std::hypot(loops[0], loops[1]);
+      INFO("distance " << distance << " cosine " << cosine);
+      CHECK(got.radial_per_r * r == Approx(loops[0]).margin(3e-6 * size));
+      CHECK(got.along == Approx(loops[1]).margin(3e-6 * size));
+    }
+  }
+  for (const double distance : {1e10, 1e30, 1e90, 1e140}) {
+    const axial_field<double> on_axis = sheet.at(0.0, distance), across = sheet.at(distance, 0.0);
+    const double moment = sheet.strength * sheet.half_length * sheet.radius * sheet.radius;
+    CHECK(on_axis.along == Approx(moment / distance / distance / distance).epsilon(1e-6));
+    CHECK(across.along == Approx(-0.5 * moment / distance / distance / distance).epsilon(1e-6));
+    CHECK(across.radial_per_r == 0.0);
+  }
+}
