@@ -6,10 +6,10 @@
 
 #include <vector>
 
-#include <scifi/kalman/filter.hpp>
 #include <scifi/kalman/joseph.hpp>
 #include <scifi/kalman/symmetric_form.hpp>
 
+#include "support/library_step.hpp"
 #include "support/step_problem.hpp"
 #include "support/textbook.hpp"
 
@@ -51,46 +51,14 @@ struct dynamic_plain {
 };
 
 template <int N, int M>
-struct constant_model {
-  const problem<double, N, M>* g;
-  const scifi::matrix<double, N, N>& transition(double) const { return g->f; }
-  const scifi::matrix<double, N, N>& covariance(double) const { return g->q; }
-};
-
-template <int N, int M>
-struct measured {
-  const problem<double, N, M>* g;
-  std::size_t i;
-  const scifi::vector<double, M>& value() const { return g->z[i]; }
-  const scifi::matrix<double, M, N>& projection() const { return g->h; }
-  const scifi::matrix<double, M, M>& covariance() const { return g->r; }
-};
-
-template <class Update>
-struct library {
-  template <int N, int M>
-  struct form {
-    static constexpr bool has_chi2 = true;
-    static answer<N> run(const problem<double, N, M>& g) {
-      const constant_model<N, M> model{&g};
-      const kalman::filter filter{model, model, Update{}};
-      kalman::estimate<double, N> e{answer<N>{}.x, answer<N>{}.p};
-      double chi2 = 0.0;
-      for (std::size_t i = 0; i < steps; ++i) {
-        chi2 += filter.advance(e, 1.0, measured<N, M>{&g, i}).chi2;
-      }
-      return {e.mean, e.covariance, chi2};
-    }
-  };
-};
-
-template <int N, int M>
 void add_size() {
   add<fixed_plain, N, M>("textbook");
   add<fixed_joseph, N, M>("textbook_joseph");
   add<dynamic_plain, N, M>("textbook_dynamic");
   add<library<kalman::joseph>::form, N, M>("scifi_joseph");
   add<library<kalman::symmetric_form>::form, N, M>("scifi_symmetric");
+  add_lanes<scifi::pack<double>, N, M>("scifi_lanes");
+  add_lanes<scifi::pack<float>, N, M>("scifi_floats");
 }
 
 }  // namespace

@@ -81,13 +81,27 @@ answer<N> reference(const problem<double, N, M>& g) {
   return {e.x.template cast<double>(), e.p.template cast<double>(), static_cast<double>(chi2)};
 }
 
+template <int N>
+bool agree(const answer<N>& found, const answer<N>& expected, double tolerance, bool has_chi2 = true) {
+  const bool chi2_right = !has_chi2 || std::abs(found.chi2 - expected.chi2) <= tolerance * expected.chi2;
+  return (found.x - expected.x).norm() <= tolerance * expected.x.norm() && (found.p - expected.p).norm() <= tolerance * expected.p.norm() && chi2_right;
+}
+
+/// How many tracks a form takes at once, and how far its results may be off.
+template <class Form>
+inline constexpr int tracks_of = 1;
+template <class Form>
+  requires requires { Form::tracks; }
+inline constexpr int tracks_of<Form> = Form::tracks;
+template <class Form>
+inline constexpr double tolerance_of = 1e-11;
+template <class Form>
+  requires requires { Form::tolerance; }
+inline constexpr double tolerance_of<Form> = Form::tolerance;
+
 template <template <int, int> class Form, int N, int M>
 bool right() {
-  const answer<N> expected = reference(given<N, M>());
-  const answer<N> found = Form<N, M>::run(given<N, M>());
-  constexpr double tolerance = 1e-11;
-  const bool chi2_right = !Form<N, M>::has_chi2 || std::abs(found.chi2 - expected.chi2) <= tolerance * expected.chi2;
-  return (found.x - expected.x).norm() <= tolerance * expected.x.norm() && (found.p - expected.p).norm() <= tolerance * expected.p.norm() && chi2_right;
+  return agree(Form<N, M>::run(given<N, M>()), reference(given<N, M>()), tolerance_of<Form<N, M>>, Form<N, M>::has_chi2);
 }
 
 template <template <int, int> class Form, int N, int M>
@@ -97,8 +111,8 @@ void timed(benchmark::State& state) {
     answer<N> a = Form<N, M>::run(g);
     benchmark::DoNotOptimize(a);
   }
-  // Shown as ns, one step each.
-  state.counters["ns"] = benchmark::Counter(static_cast<double>(state.iterations()) * steps * 1e-9, benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
+  // Shown as ns, one step of one track each.
+  state.counters["ns"] = benchmark::Counter(static_cast<double>(state.iterations()) * steps * tracks_of<Form<N, M>> * 1e-9, benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
 }
 
 inline bool all_right = true;

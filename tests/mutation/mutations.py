@@ -3,8 +3,8 @@
 
 MUTATIONS = [
     # the turning functions and the helix: signs, a factor, a derivative
-    ("core/trigonometry.hpp", "(Scalar(1.0) - cosine) / safe", "(Scalar(1.0) + cosine) / safe"),
-    ("core/trigonometry.hpp", "select(small, d_s1_series, Scalar((cosine - s1) / safe))", "select(small, d_s1_series, Scalar((cosine + s1) / safe))"),
+    ("core/trigonometry.hpp", "(Scalar(1.0) - at.cosine) * per_t", "(Scalar(1.0) + at.cosine) * per_t"),
+    ("core/trigonometry.hpp", "Scalar((at.cosine - s1) * per_t)", "Scalar((at.cosine + s1) * per_t)"),
     ("core/trigonometry.hpp", "series(0.5, -1.0 / 24, 1.0 / 720", "series(0.5, -1.0 / 26, 1.0 / 720"),
     ("core/chi_squared.hpp", "term *= x / (a + 1.0);", "term *= x / (a + 2.0);"),
     ("core/philox.hpp", "0xCD9E8D57u", "0xCD9E8D59u"),
@@ -20,9 +20,9 @@ MUTATIONS = [
     ("track_model/energy_loss_propagator.hpp", "j(i, s::tx) += by_k * departing.d_tx;", "j(i, s::tx) += by_k * departing.d_ty;"),
     ("track_model/material_noise.hpp", "c(0, 1) = c(1, 0) = scale * tx * ty;", "c(0, 1) = c(1, 0) = -scale * tx * ty;"),
     ("track_model/material_noise.hpp", "Scalar(step.dz * step.dz / 3.0)", "Scalar(step.dz * step.dz / 2.0)"),
-    ("track_model/material_noise.hpp", "const kick<Scalar> c = scatter(start, crossing, step.start);", "const kick<Scalar> c = scatter(start, crossing, step.finish);"),
+    ("track_model/material_noise.hpp", "carry_start(q, start, moved.jacobian, crossing, widths_of(crossing, step.start));", "carry_start(q, start, moved.jacobian, crossing, widths_of(crossing, step.finish));"),
     ("material/kinematics.hpp", "const double ratio = constants::electron_mass / hypothesis.mass;", "const double ratio = 0.0;"),
-    ("material/kinematics.hpp", "u2 * per_gamma2, largest_transfer", "u2 * per_gamma2 * per_gamma2, largest_transfer"),
+    ("material/kinematics.hpp", "const Scalar beta_squared = Scalar(1.0) / per_beta_squared;", "const Scalar beta_squared = per_beta_gamma_squared / per_beta_squared;"),
     ("material/bethe.hpp", "* Scalar(0.5) - k.beta_squared;", "* Scalar(0.5) + k.beta_squared;"),
     ("material/bethe.hpp", "medium.z_over_a * medium.density", "medium.z_over_a"),
     ("material/highland.hpp", "inline constexpr double log_coefficient = 0.038;", "inline constexpr double log_coefficient = 0.088;"),

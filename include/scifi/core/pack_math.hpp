@@ -7,6 +7,7 @@
 #include <type_traits>
 
 #include <scifi/core/pack.hpp>
+#include <scifi/core/trigonometry.hpp>
 
 /// Elementary functions of packs, found by argument-dependent lookup. Series in the reduced argument, cut where the next term is below the rounding error;
 /// within 1.5 units in the last place of the true value over the ranges given, sine and cosine of the larger of it and one.
@@ -14,12 +15,17 @@ namespace scifi {
 
 namespace detail {
 
-/// c[0] + x (c[1] + x (...)).
+/// c[0] + c[1] x + c[2] x^2 + ..., even and odd powers apart, so that they do not wait for each other.
 template <class T, int Lanes, std::size_t Terms>
-[[nodiscard, gnu::always_inline]] inline pack<T, Lanes> horner(const pack<T, Lanes>& x, const std::array<double, Terms>& c) {
-  pack<T, Lanes> sum(c[Terms - 1]);
-  for (std::size_t i = Terms - 1; i-- > 0;) sum = sum * x + pack<T, Lanes>(c[i]);
-  return sum;
+[[nodiscard, gnu::always_inline]] inline pack<T, Lanes> polynomial(const pack<T, Lanes>& x, const std::array<double, Terms>& c) {
+  const pack<T, Lanes> x2 = x * x;
+  pack<T, Lanes> last(c[Terms - 1]), before(c[Terms - 2]);
+  for (std::size_t i = Terms - 2; i-- > 0;) {
+    const pack<T, Lanes> next = last * x2 + pack<T, Lanes>(c[i]);
+    last = before;
+    before = next;
+  }
+  return before + x * last;
 }
 
 /// How the bits of a number are laid out.
@@ -74,9 +80,9 @@ template <class T, int Lanes>
   const scalar q = s * s;
   scalar series;
   if constexpr (layout::wide) {
-    series = detail::horner(q, std::array{1.0 / 3, 1.0 / 5, 1.0 / 7, 1.0 / 9, 1.0 / 11, 1.0 / 13, 1.0 / 15, 1.0 / 17, 1.0 / 19, 1.0 / 21});
+    series = detail::polynomial(q, std::array{1.0 / 3, 1.0 / 5, 1.0 / 7, 1.0 / 9, 1.0 / 11, 1.0 / 13, 1.0 / 15, 1.0 / 17, 1.0 / 19, 1.0 / 21});
   } else {
-    series = detail::horner(q, std::array{1.0 / 3, 1.0 / 5, 1.0 / 7, 1.0 / 9});
+    series = detail::polynomial(q, std::array{1.0 / 3, 1.0 / 5, 1.0 / 7, 1.0 / 9});
   }
   // 2 s = f - s f.
   const scalar log_m = f - s * (f - scalar(2.0) * q * series);
@@ -101,10 +107,10 @@ template <class T, int Lanes>
   const scalar r = (safe - n * scalar(layout::ln2_high)) - n * scalar(layout::ln2_low);  // |r| < 0.35
   scalar tail;  // (e^r - 1 - r) / r^2 (DLMF 4.2.19)
   if constexpr (layout::wide) {
-    tail = detail::horner(r, std::array{1.0 / 2, 1.0 / 6, 1.0 / 24, 1.0 / 120, 1.0 / 720, 1.0 / 5040, 1.0 / 40320, 1.0 / 362880, 1.0 / 3628800, 1.0 / 39916800,
+    tail = detail::polynomial(r, std::array{1.0 / 2, 1.0 / 6, 1.0 / 24, 1.0 / 120, 1.0 / 720, 1.0 / 5040, 1.0 / 40320, 1.0 / 362880, 1.0 / 3628800, 1.0 / 39916800,
                                         1.0 / 479001600, 1.0 / 6227020800.0});
   } else {
-    tail = detail::horner(r, std::array{1.0 / 2, 1.0 / 6, 1.0 / 24, 1.0 / 120, 1.0 / 720, 1.0 / 5040});
+    tail = detail::polynomial(r, std::array{1.0 / 2, 1.0 / 6, 1.0 / 24, 1.0 / 120, 1.0 / 720, 1.0 / 5040});
   }
   const scalar power = scalar(1.0) + (r + r * r * tail);
   const scalar value = power * detail::power_of_two(n);
@@ -133,11 +139,11 @@ struct reduced_angle {
     const scalar q = r * r;
     scalar odd, even;  // (sin r - r)/r^3 and (cos r - 1 + r^2/2)/r^4 (DLMF 4.19.1, 4.19.2)
     if constexpr (wide) {
-      odd = horner(q, std::array{-1.0 / 6, 1.0 / 120, -1.0 / 5040, 1.0 / 362880, -1.0 / 39916800, 1.0 / 6227020800.0, -1.0 / 1307674368000.0, 1.0 / 355687428096000.0});
-      even = horner(q, std::array{1.0 / 24, -1.0 / 720, 1.0 / 40320, -1.0 / 3628800, 1.0 / 479001600, -1.0 / 87178291200.0, 1.0 / 20922789888000.0});
+      odd = polynomial(q, std::array{-1.0 / 6, 1.0 / 120, -1.0 / 5040, 1.0 / 362880, -1.0 / 39916800, 1.0 / 6227020800.0, -1.0 / 1307674368000.0, 1.0 / 355687428096000.0});
+      even = polynomial(q, std::array{1.0 / 24, -1.0 / 720, 1.0 / 40320, -1.0 / 3628800, 1.0 / 479001600, -1.0 / 87178291200.0, 1.0 / 20922789888000.0});
     } else {
-      odd = horner(q, std::array{-1.0 / 6, 1.0 / 120, -1.0 / 5040, 1.0 / 362880});
-      even = horner(q, std::array{1.0 / 24, -1.0 / 720, 1.0 / 40320, -1.0 / 3628800});
+      odd = polynomial(q, std::array{-1.0 / 6, 1.0 / 120, -1.0 / 5040, 1.0 / 362880});
+      even = polynomial(q, std::array{1.0 / 24, -1.0 / 720, 1.0 / 40320, -1.0 / 3628800});
     }
     sine = r + r * q * odd;
     cosine = scalar(1.0) - (q * scalar(0.5) - q * q * even);
@@ -163,6 +169,13 @@ template <class T, int Lanes>
 template <class T, int Lanes>
 [[nodiscard]] inline pack<T, Lanes> cos(const pack<T, Lanes>& x) {
   return detail::reduced_angle<T, Lanes>(x).sine_after(1);
+}
+
+/// Both, from one reduction of the angle.
+template <class T, int Lanes>
+[[nodiscard]] inline sine_and_cosine<pack<T, Lanes>> sincos_of(const pack<T, Lanes>& x) {
+  const detail::reduced_angle<T, Lanes> at(x);
+  return {at.sine_after(0), at.sine_after(1)};
 }
 
 }  // namespace scifi

@@ -36,8 +36,7 @@ template <class T>
 /// Finite (neither NaN nor infinite), lane by lane; written so that it needs nothing but arithmetic and comparison.
 template <scalar T>
 [[nodiscard]] constexpr auto is_finite(const T& x) {
-  const T difference = x - x;
-  return difference <= T(0.0) && difference >= T(0.0);
+  return T(x - x) >= T(0.0);  // zero or NaN
 }
 
 /// The larger of two numbers, lane by lane.

@@ -99,8 +99,13 @@ class filter {
     if constexpr (detail::prior_fits<Prior>::value) {
       basic_predicted<detail::estimate_type<Prior>> out;
       out.status = detail::status_in(prior);
-      if (out.status.ok()) out.status = predict_into(detail::estimate_in(prior), step, about, arrived, out.estimate, out.jacobian, out.noise);
-      else unmoved(detail::estimate_in(prior), out.estimate, out.jacobian, out.noise);
+      if (out.status.ok()) {
+        out.status = predict_into(detail::estimate_in(prior), step, about, arrived, out.estimate, out.jacobian, out.noise);
+      } else {
+        out.estimate = detail::estimate_in(prior);
+        out.jacobian.setIdentity();
+        out.noise.setZero();
+      }
       return out;
     }
   }
@@ -108,58 +113,62 @@ class filter {
   /// The prediction written where it is to stay.
   template <class Estimate, class Step, class About, class Arrived, class Square>
   [[nodiscard]] status predict_into(const Estimate& prior, const Step& step, const About& about, const Arrived& arrived, Estimate& end, Square& jacobian, Square& noise) const {
+    vector<typename Estimate::scalar, Estimate::dimension> flown;
+    if constexpr (std::is_same_v<About, std::nullptr_t>) fly_into<Estimate>(prior.mean, step, flown, jacobian, noise);
+    else fly_into<Estimate>(*about, step, flown, jacobian, noise);
+    const status s = carry_into(prior, step, about, flown, jacobian, noise, end);
+    if constexpr (!std::is_same_v<Arrived, std::nullptr_t>) *arrived = flown;
+    return s;
+  }
+
+  /// The model's part of a step: where the state `from` ends, the Jacobian of the way and its noise.
+  template <class Estimate, class Step, class State, class Square>
+  void fly_into(const State& from, const Step& step, State& arrived, Square& jacobian, Square& noise) const {
     using Scalar = typename Estimate::scalar;
     constexpr int N = Estimate::dimension;
-    if constexpr (detail::is_optional<Step>) {
-      if (step) return predict_into(prior, *step, about, arrived, end, jacobian, noise);
-      if constexpr (!std::is_same_v<Arrived, std::nullptr_t>) *arrived = *about;
-      unmoved(prior, end, jacobian, noise);
-    } else if constexpr (detail::is_reference<Step>) {
-      return predict_into(prior, step.get(), about, arrived, end, jacobian, noise);
+    if constexpr (detail::is_reference<Step>) return fly_into<Estimate>(from, step.get(), arrived, jacobian, noise);
+    else if constexpr (detail::is_optional<Step>) {
+      if (step) return fly_into<Estimate>(from, *step, arrived, jacobian, noise);
     } else if constexpr (detail::model_spaces_agree<Propagator, Noise>::value && detail::propagator_fits<Propagator, Scalar, N, Step>::value &&
                          detail::noise_fits<Noise, Scalar, N, Step>::value) {
-      return {step_kind::predict, carry(prior, step, about, arrived, end, jacobian, noise)};
-    } else {
-      unmoved(prior, end, jacobian, noise);  // behind an error
+      const auto moved = detail::propagate_fully(propagator_, from, step);
+      detail::copy_columns<Scalar, N, N>(jacobian, moved.jacobian);
+      ::new (static_cast<void*>(&noise)) Square(detail::noise_covariance<Scalar, N>(noise_, from, step, moved));  // made in its place
+      arrived = moved.state;
+      return;
     }
-    return {step_kind::predict, reason::none};
-  }
-
-  template <class Estimate, class Square>
-  static void unmoved(const Estimate& e, Estimate& end, Square& jacobian, Square& noise) {
-    end = e;
-    jacobian.setIdentity();
+    jacobian.setIdentity();  // no step to take, or behind an error
     noise.setZero();
+    arrived = from;
   }
 
-  template <class Estimate, class Step, class About, class Arrived, class Square>
-  [[nodiscard]] reason carry(const Estimate& prior, const Step& step, const About& about, const Arrived& arrived, Estimate& end, Square& jacobian, Square& noise) const {
+  /// The filter's part: the estimate carried over a step that `about`, or its own mean, was flown over.
+  template <class Estimate, class Step, class About, class State, class Square>
+  [[nodiscard]] status carry_into(const Estimate& prior, const Step& step, const About& about, const State& arrived, const Square& jacobian, const Square& noise, Estimate& end) const {
     using Scalar = typename Estimate::scalar;
     constexpr int N = Estimate::dimension;
-    constexpr bool relinearised = !std::is_same_v<About, std::nullptr_t>;
-    const vector<Scalar, N>& from = [&]() -> const vector<Scalar, N>& {
-      if constexpr (relinearised) return *about;
-      else return prior.mean;
-    }();
-    const auto moved = detail::propagate_fully(propagator_, from, step);
-    detail::copy_columns<Scalar, N, N>(jacobian, moved.jacobian);
-    ::new (static_cast<void*>(&noise)) Square(detail::noise_covariance<Scalar, N>(noise_, from, step, moved));  // made in its place
-    end.mean = moved.state;
-    if constexpr (relinearised) end.mean += detail::times_vector<Scalar, N, N>(moved.jacobian, prior.mean - from);
-    reason why = reason::none;
-    if constexpr (std::is_same_v<Estimate, kalman::estimate<Scalar, N>>) {
-      detail::carry_covariance<detail::unit_columns_of<Propagator>(), Scalar, N>(end.covariance, moved.jacobian, prior.covariance, noise);
-      why = fault_of(end.mean, end.covariance);
+    if constexpr (detail::is_reference<Step>) return carry_into(prior, step.get(), about, arrived, jacobian, noise, end);
+    else if constexpr (detail::is_optional<Step>) {
+      if (step) return carry_into(prior, *step, about, arrived, jacobian, noise, end);
+      end = prior;
+      return {step_kind::predict, reason::none};
     } else {
-      matrix<Scalar, N, 2 * N> array;
-      array.template leftCols<N>() = moved.jacobian.lazyProduct(prior.factor);
-      array.template rightCols<N>() = semidefinite_factor<Scalar, N>(noise);
-      end.factor = lower_triangular<Scalar, N, 2 * N>(array);
-      why = fault_of(end.mean, end.factor);
+      end.mean = arrived;
+      if constexpr (!std::is_same_v<About, std::nullptr_t>) end.mean += detail::times_vector<Scalar, N, N>(jacobian, prior.mean - *about);
+      reason why = reason::none;
+      if constexpr (std::is_same_v<Estimate, kalman::estimate<Scalar, N>>) {
+        detail::carry_covariance<detail::unit_columns_of<Propagator>(), Scalar, N>(end.covariance, jacobian, prior.covariance, noise);
+        why = fault_of(end.mean, end.covariance);
+      } else {
+        matrix<Scalar, N, 2 * N> array;
+        array.template leftCols<N>() = jacobian.lazyProduct(prior.factor);
+        array.template rightCols<N>() = semidefinite_factor<Scalar, N>(noise);
+        end.factor = lower_triangular<Scalar, N, 2 * N>(array);
+        why = fault_of(end.mean, end.factor);
+      }
+      if (why != reason::none) end = prior;
+      return {step_kind::predict, why};
     }
-    if (why != reason::none) end = prior;
-    if constexpr (!std::is_same_v<Arrived, std::nullptr_t>) *arrived = moved.state;
-    return why;
   }
 
   template <class Prior, class Measurement, class About>

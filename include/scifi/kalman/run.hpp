@@ -91,8 +91,18 @@ template <class Filter, class Prior, class Sites, class Nodes, class References>
     };
     estimate_type after_update = estimate_in(start);
     const estimate_type* current = &after_update;
+    // A flight that does not hang on what is measured goes one step ahead: it and the filter do not wait for each other.
+    [[maybe_unused]] const auto fly_ahead = [&](const auto& step, std::size_t k) {
+      if constexpr (is_flown<References>) {
+        auto& states = references.states;
+        if (k < nodes.size() && k + 1 < std::size(states)) f.template fly_into<estimate_type>(std::data(states)[k], step, std::data(states)[k + 1], nodes[k].jacobian, nodes[k].noise);
+      }
+    };
+    auto ahead = std::begin(sites);
+    std::size_t flown = 0;
     for (const auto& here : sites) {
       const std::size_t k = result.reached;
+      for (; flown <= k + 1 && ahead != std::end(sites); ++ahead, ++flown) fly_ahead(ahead->step, flown);
       if (k >= nodes.size()) return fail({step_kind::predict, reason::out_of_space});
       auto& n = nodes[k];
       constexpr bool factored = !std::is_same_v<estimate_type, std::remove_cvref_t<decltype(n.filtered)>>;
@@ -101,7 +111,7 @@ template <class Filter, class Prior, class Sites, class Nodes, class References>
         if constexpr (factored) return own_prediction;
         else return n.predicted;
       }();
-      const auto predict = [&](const auto& about, const auto& arrived) { return f.predict_into(*current, here.step, about, arrived, prediction, n.jacobian, n.noise); };
+      [[maybe_unused]] const auto predict = [&](const auto& about, const auto& arrived) { return f.predict_into(*current, here.step, about, arrived, prediction, n.jacobian, n.noise); };
       // Each alternative of a mixed measurement is taken in by matrices of its own size.
       const auto take = [&](status predicted, const auto&... about) {
         if constexpr (factored) n.predicted = unfactored(prediction);
@@ -126,8 +136,7 @@ template <class Filter, class Prior, class Sites, class Nodes, class References>
         } else if constexpr (is_flown<References>) {
           auto& states = references.states;
           if (k + 1 >= std::size(states)) return status{step_kind::predict, reason::missing_reference};
-          const status s = predict(std::data(states) + k, std::data(states) + k + 1);
-          return take(s, std::data(states)[k + 1]);
+          return take(f.carry_into(*current, here.step, std::data(states) + k, std::data(states)[k + 1], n.jacobian, n.noise, prediction), std::data(states)[k + 1]);
         } else {
           if (k >= std::size(references)) return status{step_kind::predict, reason::missing_reference};
           vector<Scalar, estimate_type::dimension> arrived;
@@ -145,7 +154,10 @@ template <class Filter, class Prior, class Sites, class Nodes, class References>
     // Steps look at variances only. What else is not finite, from a noise say, stays in the covariance: one look at the end sees it.
     if (result.reached > 0) {
       auto& last = nodes[result.reached - 1];
-      if (!any_of(is_finite<Scalar>(last.filtered.covariance.sum()))) {
+      Scalar sum(0.0);
+      for (int j = 0; j < estimate_type::dimension; ++j)
+        for (int i = 0; i < estimate_type::dimension; ++i) sum += last.filtered.covariance(i, j);
+      if (!any_of(is_finite<Scalar>(sum))) {
         last.status = {step_kind::update, reason::not_finite};
         --result.reached;
         return fail(last.status);

@@ -74,10 +74,9 @@ template <class Scalar, int N>
     of_variances += covariance(i, i);
     lowest = smaller_of<Scalar>(lowest, covariance(i, i));
   }
-  const Scalar probe = of_mean + of_variances;
-  if (!any_of(is_finite<Scalar>(probe))) return reason::not_finite;
-  if (!any_of(lowest >= Scalar(0.0))) return reason::not_positive_definite;
-  return reason::none;
+  const auto finite = is_finite<Scalar>(of_mean + of_variances);
+  if (any_of(finite && lowest >= Scalar(0.0))) return reason::none;
+  return any_of(finite) ? reason::not_positive_definite : reason::not_finite;
 }
 
 }  // namespace scifi::kalman

@@ -61,9 +61,9 @@ struct most_probable_energy_loss {
   [[nodiscard]] landau_slab prepared_slab(const particle& hypothesis, const slab& s) const { return landau_slab_of(hypothesis, s, traversed_layers, 0.0); }
   template <std::size_t Capacity>
   [[nodiscard]] prepared_landau_loss<Capacity> prepared(const particle& hypothesis, const slab_stack<Capacity>& stack) const {
-    prepared_landau_loss<Capacity> out{hypothesis, {}};
-    for (const slab& s : stack) out.slabs.push_back(prepared_slab(hypothesis, s));
-    return out;
+    inline_vector<landau_slab, Capacity> slabs;
+    for (const slab& s : stack) slabs.push_back(prepared_slab(hypothesis, s));
+    return {hypothesis, slabs};
   }
 };
 
@@ -83,9 +83,9 @@ struct median_energy_loss {
   [[nodiscard]] landau_slab prepared_slab(const particle& hypothesis, const slab& s) const { return landau_slab_of(hypothesis, s, traversed_layers, landau::median_above_mode); }
   template <std::size_t Capacity>
   [[nodiscard]] prepared_landau_loss<Capacity> prepared(const particle& hypothesis, const slab_stack<Capacity>& stack) const {
-    prepared_landau_loss<Capacity> out{hypothesis, {}};
-    for (const slab& s : stack) out.slabs.push_back(prepared_slab(hypothesis, s));
-    return out;
+    inline_vector<landau_slab, Capacity> slabs;
+    for (const slab& s : stack) slabs.push_back(prepared_slab(hypothesis, s));
+    return {hypothesis, slabs};
   }
 };
 

@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: MPL-2.0
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <numbers>
+#include <type_traits>
 
 #include <scifi/core/constants.hpp>
 #include <scifi/core/inline_vector.hpp>
+#include <scifi/core/octave_polynomials.hpp>
 #include <scifi/core/scalar.hpp>
 #include <scifi/material/density_effect.hpp>
 #include <scifi/material/kinematics.hpp>
@@ -57,13 +61,14 @@ template <scalar Scalar, class Slabs>
   const Scalar d_log_xi = Scalar(-2.0) * k.per_beta_gamma * k.per_gamma_squared;
   const Scalar d_beta_squared = -k.beta_gamma * k.beta_gamma * d_log_xi * k.per_gamma_squared;
   const Scalar d_log_u2 = Scalar(2.0) * k.per_beta_gamma - d_beta_squared;
-  const Scalar log_u2 = Scalar(2.0) * c.log_beta_gamma - k.beta_squared;
+  const Scalar log_beta_gamma = log(k.beta_gamma);
+  const Scalar log_u2 = Scalar(2.0) * log_beta_gamma - k.beta_squared;
   const Scalar of_mode = log_u2 + c.log_path_over_beta_squared;
 
   energy_loss<Scalar> sum{zero, zero, zero};
   for (const landau_slab& s : slabs) {
     if (s.xi == 0.0) continue;
-    const density_effect_by_logarithm<Scalar> delta = density_effect_at_log(c.log_beta_gamma, s.density_effect);
+    const density_effect_by_logarithm<Scalar> delta = density_effect_at_log(log_beta_gamma, s.density_effect);
     Scalar bracket = of_mode + Scalar(s.log_mode);
     Scalar d_bracket = d_log_xi;
     Scalar by_path(1.0);
@@ -88,15 +93,61 @@ template <scalar Scalar, class Slabs>
 }
 
 /// The loss in a stack of slabs, prepared for any momentum.
+///
+/// For a single particle of double precision the part of the sum of xi times bracket that depends on the momentum alone, all but ln(path/beta^2), is laid
+/// down as polynomials in (mass/p)^2 for 0.5 < beta gamma < 16: they give the formula to rounding. The formula is asked elsewhere, and where the loss in a slab is bounded.
 template <std::size_t Capacity>
-struct prepared_landau_loss {
-  particle hypothesis;
-  inline_vector<landau_slab, Capacity> slabs;
+class prepared_landau_loss {
+ public:
+  prepared_landau_loss(const particle& hypothesis, const inline_vector<landau_slab, Capacity>& slabs) : hypothesis_(hypothesis), slabs_(slabs) {
+    for (const landau_slab& s : slabs) {
+      if (s.xi == 0.0) continue;
+      xi_ += s.xi;
+      least_mean_over_mode_ = std::min(least_mean_over_mode_, s.mean_over_mode);
+    }
+    constexpr int first_octave = -8, octaves = 10;
+    if (xi_ > 0.0) brackets_ = octave_polynomials([&slabs](double per_beta_gamma_squared) { return brackets(slabs, per_beta_gamma_squared); }, first_octave, octaves);
+  }
 
   template <scalar Scalar>
-  [[nodiscard]] energy_loss<Scalar> loss(const crossing_particle<Scalar>& crossing) const {
-    return loss_in_landau_slabs(crossing, hypothesis, slabs);
+  [[nodiscard, gnu::always_inline]] energy_loss<Scalar> loss(const crossing_particle<Scalar>& c) const {
+    if constexpr (std::is_same_v<Scalar, double>) {
+      const ionisation_kinematics<double>& k = c.kinematics;
+      const octave_polynomials::value_and_slope of_momentum = brackets_.at(k.per_beta_gamma_squared);
+      if (of_momentum.known && k.largest_transfer * least_mean_over_mode_ >= c.path_over_beta_squared * std::numbers::e) {
+        const double d_log_xi = -2.0 * k.per_beta_gamma * k.per_gamma_squared;
+        const double sum = of_momentum.value + xi_ * c.log_path_over_beta_squared;
+        const double d_sum = xi_ * d_log_xi - 2.0 * k.per_beta_gamma * of_momentum.x_times_slope;
+        return {c.path_over_beta_squared * sum, c.path_over_beta_squared * (d_log_xi * sum + d_sum) * (1.0 / hypothesis_.mass), k.per_beta_squared * (sum + xi_)};
+      }
+    }
+    return by_formula(c);
   }
+
+ private:
+  template <scalar Scalar>
+  [[nodiscard, gnu::noinline]] energy_loss<Scalar> by_formula(const crossing_particle<Scalar>& c) const {
+    return loss_in_landau_slabs(c, hypothesis_, slabs_);
+  }
+
+  /// Sum of xi times (bracket - ln(path/beta^2)) of the mode; NaN where the bracket along the normal is negative.
+  [[nodiscard]] static double brackets(const inline_vector<landau_slab, Capacity>& slabs, double per_beta_gamma_squared) {
+    const double log_beta_gamma = -0.5 * std::log(per_beta_gamma_squared);
+    const double per_beta_squared = 1.0 + per_beta_gamma_squared;
+    double sum = 0.0;
+    for (const landau_slab& s : slabs) {
+      const double bracket = 2.0 * log_beta_gamma - 1.0 / per_beta_squared + s.log_mode - density_effect_at_log(log_beta_gamma, s.density_effect).value;
+      if (s.xi > 0.0 && !(bracket + std::log(per_beta_squared) >= 0.0)) return std::numeric_limits<double>::quiet_NaN();
+      sum += s.xi * bracket;
+    }
+    return sum;
+  }
+
+  particle hypothesis_;
+  inline_vector<landau_slab, Capacity> slabs_;
+  double xi_ = 0.0;
+  double least_mean_over_mode_ = std::numeric_limits<double>::max();
+  octave_polynomials brackets_;
 };
 
 }  // namespace scifi

@@ -30,12 +30,12 @@ template <scalar Scalar>
   const Scalar d_new_d_loss = (energy_lost - energy) * per_root;
   const Scalar stopped(std::numeric_limits<double>::quiet_NaN());
   return {select(moving, root, stopped), select(moving, Scalar(-d_new_d_loss * p * per_energy), stopped), select(moving, d_new_d_loss, stopped),
-          per_root};
+          select(moving, per_root, stopped)};
 }
 
 /// p' = sqrt(p^2 - loss (2 E - loss)), E^2 = p^2 + mass^2; p > 0 in MeV/c, mass and energy_lost in MeV.
 /// A negative `energy_lost` is a gain: a particle followed against its flight.
-/// Fails with NaN in all but the inverse when nothing of the kinetic energy is left: the particle has stopped.
+/// Fails with NaN in all when nothing of the kinetic energy is left: the particle has stopped.
 template <scalar Scalar>
 [[nodiscard]] momentum_change<Scalar> momentum_after_loss(const Scalar& p, double mass, const Scalar& energy_lost) {
   using std::sqrt;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 
 #include <scifi/core/inline_vector.hpp>
@@ -39,24 +40,38 @@ struct bohr_straggling {
 };
 
 /// The variance that a stack of slabs adds with `landau_straggling`, prepared for any momentum.
+///
+/// While the core is the smaller in each slab, which is so in thin ones, their sum is that of xi^2 core times (path/beta^2)^2.
 template <std::size_t Capacity>
-struct prepared_landau_straggling {
-  struct part {
-    double xi;    ///< MeV, for beta = 1 along the normal
-    double core;  ///< variance of the core's share over xi^2
-  };
-  inline_vector<part, Capacity> slabs;
+class prepared_landau_straggling {
+ public:
+  /// A slab of xi (MeV, for beta = 1 along the normal) whose share of the core's variance is `core` xi^2.
+  void add(double xi, double core) {
+    slabs_.push_back({xi, core});
+    core_ += xi * xi * core;
+    thickest_ = std::max(thickest_, xi * core);
+  }
 
   /// Of the energy, MeV^2.
   template <scalar Scalar>
   [[nodiscard]] Scalar variance(const crossing_particle<Scalar>& c) const {
+    const Scalar whole = bohr_variance(Scalar(1.0), c.kinematics);
+    if (all_of(c.path_over_beta_squared * Scalar(thickest_) <= whole)) return c.path_over_beta_squared * c.path_over_beta_squared * Scalar(core_);
     Scalar sum(0.0);
-    for (const part& s : slabs) {
+    for (const part& s : slabs_) {
       const Scalar xi = c.path_over_beta_squared * Scalar(s.xi);
-      sum += smaller_of(Scalar(xi * xi * Scalar(s.core)), bohr_variance(xi, c.kinematics));
+      sum += xi * smaller_of(Scalar(xi * Scalar(s.core)), whole);
     }
     return sum;
   }
+
+ private:
+  struct part {
+    double xi, core;
+  };
+  inline_vector<part, Capacity> slabs_;
+  double core_ = 0.0;
+  double thickest_ = 0.0;
 };
 
 /// Variance (MeV^2) of the Gaussian as wide at half maximum as the Landau core, (4.018 xi / 2.355)^2. Goes with the most probable or the
@@ -87,7 +102,7 @@ struct landau_straggling {
     prepared_landau_straggling<Capacity> out;
     for (const slab& s : stack) {
       const double core = landau::core_width * landau::core_width * traversed_layers;
-      if (s.thickness > 0.0) out.slabs.push_back({landau_xi_per_mm(hypothesis, s.medium) * s.thickness, core * layer_thickness(s) / s.thickness});
+      if (s.thickness > 0.0) out.add(landau_xi_per_mm(hypothesis, s.medium) * s.thickness, core * layer_thickness(s) / s.thickness);
     }
     return out;
   }

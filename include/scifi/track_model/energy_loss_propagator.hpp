@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MPL-2.0
 #pragma once
 
-#include <cmath>
 #include <type_traits>
 
 #include <scifi/core/linalg.hpp>
@@ -50,34 +49,30 @@ struct energy_loss_propagator {
   template <class Scalar, class Leg>
   [[nodiscard]] propagated_in_matter<Scalar> through_matter(const vector<Scalar, 5>& start, const Leg& step) const {
     using s = slope_state;
-    using std::sqrt;
     propagated_in_matter<Scalar> end;
-    if (step.start.empty() && step.gap.empty() && step.finish.empty()) {
-      fly(end, start, step);
-      return end;
+    const bool in_matter = !(step.start.empty() && step.gap.empty() && step.finish.empty());
+    changed<Scalar> departing{start[s::q_over_pz], Scalar(1.0), Scalar(0.0), Scalar(0.0)};
+    changed<Scalar> arriving = departing;
+    if (in_matter) {
+      const Scalar sign(step.direction == travel ? 1.0 : -1.0);
+      set_crossing_of_slopes(end.crossing, start[s::tx], start[s::ty], magnitude(start[s::q_over_pz]), hypothesis);
+      const crossing_particle<Scalar>& crossing = end.crossing;
+      energy_loss<Scalar> total = loss_in_slabs(loss, crossing, hypothesis, step.gap, step.finish);
+      if (!step.start.empty()) {
+        const energy_loss<Scalar> before = loss_in_slabs(loss, crossing, hypothesis, step.start);
+        add_loss(total, before);
+        departing = after_loss(start, crossing, sign, before);
+      }
+      arriving = after_loss(start, crossing, sign, total);
     }
-    const Scalar tx = start[s::tx];
-    const Scalar ty = start[s::ty];
-    const Scalar path = sqrt(Scalar(1.0) + tx * tx + ty * ty);
-    const Scalar p = path / magnitude(start[s::q_over_pz]);
-    const Scalar sign(step.direction == travel ? 1.0 : -1.0);
-    const crossing_particle<Scalar> crossing = crossing_particle_of(p, hypothesis, path);
-    energy_loss<Scalar> before{Scalar(0.0), Scalar(0.0), Scalar(0.0)};
-    if (!step.start.empty()) before = loss_in_slabs(loss, crossing, hypothesis, step.start);
-    energy_loss<Scalar> total = loss_in_slabs(loss, crossing, hypothesis, step.gap, step.finish);
-    add_loss(total, before);
-
-    const changed<Scalar> departing =
-        step.start.empty() ? changed<Scalar>{start[s::q_over_pz], Scalar(1.0), Scalar(0.0), Scalar(0.0)} : after_loss(start, crossing, sign, before);
-    const changed<Scalar> arriving = after_loss(start, crossing, sign, total);
     vector<Scalar, 5> flying = start;
     flying[s::q_over_pz] = departing.q_over_pz;
     fly(end, flying, step);
-    end.crossing = crossing;
+    if (!in_matter) return end;
 
     // The flight starts with the q/pz that the loss left, which the slopes at the start have a hand in.
     auto& j = end.jacobian;
-    for (int i = 0; i < s::dimension; ++i) {
+    for (int i = 0; i < s::dimension && !step.start.empty(); ++i) {
       const Scalar by_k = j(i, s::q_over_pz);
       j(i, s::tx) += by_k * departing.d_tx;
       j(i, s::ty) += by_k * departing.d_ty;
@@ -122,11 +117,10 @@ struct energy_loss_propagator {
     const momentum_change<Scalar> m = momentum_after_loss(c.p, hypothesis.mass, energy, per_energy, Scalar(sign * lost.value));
     const Scalar d_new_d_p = m.d_new_d_p + m.d_new_d_loss * sign * lost.d_value_d_p;  // at fixed path
     const Scalar d_new_d_path = m.d_new_d_loss * sign * lost.d_value_d_path_factor;   // at fixed p
-    const Scalar p_over_new = c.p * m.p_new * m.per_new * m.per_new;  // p / p', and NaN for a particle that stopped
+    const Scalar p_over_new = c.p * m.per_new;  // NaN for a particle that stopped
     const Scalar k_new = k * p_over_new;
     // p = path / |k|, k' = sign(k) path / p'.
-    const Scalar path2 = c.path_over_thickness * c.path_over_thickness;
-    const Scalar d_path_over_path = (k_new - k_new * m.per_new * (d_new_d_p * c.p + d_new_d_path * c.path_over_thickness)) / path2;
+    const Scalar d_path_over_path = (k_new - k_new * m.per_new * (d_new_d_p * c.p + d_new_d_path * c.path_over_thickness)) * c.per_path_squared;
     return {k_new, Scalar(p_over_new * p_over_new * d_new_d_p), Scalar(d_path_over_path * at[s::tx]), Scalar(d_path_over_path * at[s::ty])};
   }
 };

@@ -33,7 +33,7 @@ struct helix_propagator {
 
   /// The same, written where it is to stay.
   template <class Scalar>
-  void propagate_into(kalman::propagated<Scalar, 5>& end, const vector<Scalar, 5>& start, double dz) const {
+  [[gnu::always_inline]] void propagate_into(kalman::propagated<Scalar, 5>& end, const vector<Scalar, 5>& start, double dz) const {
     using s = slope_state;
     const Scalar length = Scalar(dz);
     const Scalar per_k = Scalar(field * dz);
@@ -50,7 +50,11 @@ struct helix_propagator {
     end.state[s::q_over_pz] = start[s::q_over_pz];
 
     auto& j = end.jacobian;
-    j.setIdentity();
+    for (const int unit : unit_columns)
+      for (int i = 0; i < s::dimension; ++i) j(i, unit) = Scalar(i == unit ? 1.0 : 0.0);
+    j(s::q_over_pz, s::tx) = Scalar(0.0);
+    j(s::q_over_pz, s::ty) = Scalar(0.0);
+    j(s::q_over_pz, s::q_over_pz) = Scalar(1.0);
     j(s::x, s::tx) = length * t.s1;
     j(s::x, s::ty) = length * t.c1;
     j(s::y, s::tx) = -length * t.c1;

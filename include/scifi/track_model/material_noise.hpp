@@ -2,11 +2,11 @@
 #pragma once
 
 #include <cmath>
-#include <utility>
 
 #include <scifi/core/linalg.hpp>
 #include <scifi/core/scalar.hpp>
 #include <scifi/kalman/concepts.hpp>
+#include <scifi/kalman/symmetric.hpp>
 #include <scifi/material/concepts.hpp>
 #include <scifi/material/in_slabs.hpp>
 #include <scifi/material/particle.hpp>
@@ -45,84 +45,102 @@ struct material_noise {
   template <class Scalar, class Leg, class Moved>
   [[nodiscard]] matrix<Scalar, 5, 5> covariance(const vector<Scalar, 5>& start, const Leg& step, const Moved& moved) const {
     using s = slope_state;
-    using std::sqrt;
-    matrix<Scalar, 5, 5> q = matrix<Scalar, 5, 5>::Zero();
-    if (step.start.empty() && step.gap.empty() && step.finish.empty()) return q;
+    if (step.start.empty() && step.gap.empty() && step.finish.empty()) return matrix<Scalar, 5, 5>::Zero();
     const crossing_particle<Scalar>& crossing = [&]() -> decltype(auto) {
       if constexpr (requires { moved.crossing; }) {
         return (moved.crossing);
       } else {
-        const Scalar path = sqrt(Scalar(1.0) + square(Scalar(start[s::tx])) + square(Scalar(start[s::ty])));
-        return crossing_particle_of(Scalar(path / magnitude(start[s::q_over_pz])), hypothesis, path);
+        crossing_particle<Scalar> own;
+        set_crossing_of_slopes(own, start[s::tx], start[s::ty], magnitude(start[s::q_over_pz]), hypothesis);
+        return own;
       }
     }();
 
-    if (!step.finish.empty()) add_kick(q, scatter(moved.state, crossing, step.finish));
+    matrix<Scalar, 5, 5> q;
+    if (step.start.empty()) q.setZero();
+    else carry_start(q, start, moved.jacobian, crossing, widths_of(crossing, step.start));
+    const auto add = [&q](int i, int j, const Scalar& value) {
+      q(i, j) += value;
+      q(j, i) = q(i, j);
+    };
+    const kick<Scalar> c = kick_at(moved.state);
+    widths<Scalar> all{Scalar(0.0), Scalar(0.0)};
+    if (!step.finish.empty()) all = widths_of(crossing, step.finish);
     if (!step.gap.empty()) {
-      const kick<Scalar> thick = scatter(moved.state, crossing, step.gap);
-      add_kick(q, thick);
-      const Scalar half = Scalar(0.5 * step.dz);
-      const Scalar third = Scalar(step.dz * step.dz / 3.0);
-      q(s::x, s::x) += third * thick.tx_tx;
-      q(s::y, s::y) += third * thick.ty_ty;
-      q(s::x, s::y) += third * thick.tx_ty;
-      q(s::x, s::tx) += half * thick.tx_tx;
-      q(s::x, s::ty) += half * thick.tx_ty;
-      q(s::tx, s::y) += half * thick.tx_ty;
-      q(s::y, s::ty) += half * thick.ty_ty;
-      q(s::x, s::q_over_pz) += half * thick.tx_k;
-      q(s::y, s::q_over_pz) += half * thick.ty_k;
+      const widths<Scalar> gap = widths_of(crossing, step.gap);
+      all.angle += gap.angle;
+      all.energy += gap.energy;
+      const Scalar mixed = gap.angle * Scalar(0.5 * step.dz);
+      const Scalar positions = gap.angle * Scalar(step.dz * step.dz / 3.0);
+      add(s::x, s::x, positions * c.tx_tx);
+      add(s::x, s::y, positions * c.tx_ty);
+      add(s::y, s::y, positions * c.ty_ty);
+      add(s::x, s::tx, mixed * c.tx_tx);
+      add(s::x, s::ty, mixed * c.tx_ty);
+      add(s::tx, s::y, mixed * c.tx_ty);
+      add(s::y, s::ty, mixed * c.ty_ty);
+      add(s::x, s::q_over_pz, mixed * c.tx_k);
+      add(s::y, s::q_over_pz, mixed * c.ty_k);
     }
-    if (!step.start.empty()) {
-      const kick<Scalar> c = scatter(start, crossing, step.start);
-      const auto& f = moved.jacobian;
-      // F C F' where C has only the rows and columns tx, ty, q/pz.
-      for (int i = 0; i < 5; ++i) {
-        const Scalar by_tx = f(i, s::tx) * c.tx_tx + f(i, s::ty) * c.tx_ty + f(i, s::q_over_pz) * c.tx_k;
-        const Scalar by_ty = f(i, s::tx) * c.tx_ty + f(i, s::ty) * c.ty_ty + f(i, s::q_over_pz) * c.ty_k;
-        const Scalar by_k = f(i, s::tx) * c.tx_k + f(i, s::ty) * c.ty_k + f(i, s::q_over_pz) * c.k_k;
-        for (int j = i; j < 5; ++j) q(i, j) += by_tx * f(j, s::tx) + by_ty * f(j, s::ty) + by_k * f(j, s::q_over_pz);
-      }
-    }
-    for (int i = 1; i < 5; ++i)
-      for (int j = 0; j < i; ++j) q(i, j) = q(j, i);
+    add(s::tx, s::tx, all.angle * c.tx_tx);
+    add(s::tx, s::ty, all.angle * c.tx_ty);
+    add(s::ty, s::ty, all.angle * c.ty_ty);
+    add(s::tx, s::q_over_pz, all.angle * c.tx_k);
+    add(s::ty, s::q_over_pz, all.angle * c.ty_k);
+    add(s::q_over_pz, s::q_over_pz, all.angle * c.k_k + lost(moved.state, crossing, all.energy));
     return q;
   }
 
  private:
-  /// Upper triangle of the covariance of (tx, ty, q/pz) from material at one place.
+  /// Variances of the projected angle (rad^2) and of the energy (MeV^2).
+  template <class Scalar>
+  struct widths {
+    Scalar angle, energy;
+  };
+  template <class Scalar, class Stack>
+  [[nodiscard]] widths<Scalar> widths_of(const crossing_particle<Scalar>& crossing, const Stack& stack) const {
+    if constexpr (requires { stack.angle_variance(crossing); }) return {stack.angle_variance(crossing), stack.energy_variance(crossing)};
+    else return {variance_in_slabs(scattering, crossing, hypothesis, stack), variance_in_slabs(straggling, crossing, hypothesis, stack)};
+  }
+
+  /// Covariance of (tx, ty, q/pz), upper triangle, from a projected angle of unit variance at one place.
   template <class Scalar>
   struct kick {
     Scalar tx_tx, tx_ty, ty_ty, tx_k, ty_k, k_k;
   };
-
-  template <class Scalar, class Stack>
-  [[nodiscard]] kick<Scalar> scatter(const vector<Scalar, 5>& at, const crossing_particle<Scalar>& crossing, const Stack& stack) const {
+  template <class Scalar>
+  [[nodiscard]] static kick<Scalar> kick_at(const vector<Scalar, 5>& at) {
     using s = slope_state;
     const Scalar tx = at[s::tx];
     const Scalar ty = at[s::ty];
     const Scalar k = at[s::q_over_pz];
+    const matrix<Scalar, 2, 2> c = slope_covariance(tx, ty, Scalar(1.0));
     const Scalar t2 = tx * tx + ty * ty;
-    const auto [angle, energy] = [&]() -> std::pair<Scalar, Scalar> {
-      if constexpr (requires { stack.angle_variance(crossing); }) return {stack.angle_variance(crossing), stack.energy_variance(crossing)};
-      else return {variance_in_slabs(scattering, crossing, hypothesis, stack), variance_in_slabs(straggling, crossing, hypothesis, stack)};
-    }();
-    const matrix<Scalar, 2, 2> c = slope_covariance(tx, ty, angle);
-    const Scalar along = angle * (Scalar(1.0) + t2) * k;
-    // d(q/pz)/dE = -(q/pz)/p dp/dE, dp/dE = E/p = 1/beta.
-    const Scalar d_k_d_e2 = k * k * crossing.per_p_beta_squared;
-    return {c(0, 0), c(0, 1), c(1, 1), Scalar(along * tx), Scalar(along * ty), Scalar(angle * t2 * k * k + energy * d_k_d_e2)};
+    const Scalar along = (Scalar(1.0) + t2) * k;
+    return {c(0, 0), c(0, 1), c(1, 1), Scalar(along * tx), Scalar(along * ty), Scalar(t2 * k * k)};
   }
 
+  /// Variance of q/pz from that of the energy: d(q/pz)/dE = -(q/pz)/p dp/dE, dp/dE = E/p = 1/beta.
   template <class Scalar>
-  static void add_kick(matrix<Scalar, 5, 5>& q, const kick<Scalar>& c) {
+  [[nodiscard]] static Scalar lost(const vector<Scalar, 5>& at, const crossing_particle<Scalar>& crossing, const Scalar& energy) {
+    const Scalar k = at[slope_state::q_over_pz];
+    return energy * k * k * crossing.per_p_beta_squared;
+  }
+
+  /// q = F C F' for the kick C at the start, which has only the rows and columns tx, ty, q/pz.
+  template <class Scalar>
+  static void carry_start(matrix<Scalar, 5, 5>& q, const vector<Scalar, 5>& start, const matrix<Scalar, 5, 5>& jacobian, const crossing_particle<Scalar>& crossing, const widths<Scalar>& w) {
     using s = slope_state;
-    q(s::tx, s::tx) += c.tx_tx;
-    q(s::tx, s::ty) += c.tx_ty;
-    q(s::ty, s::ty) += c.ty_ty;
-    q(s::tx, s::q_over_pz) += c.tx_k;
-    q(s::ty, s::q_over_pz) += c.ty_k;
-    q(s::q_over_pz, s::q_over_pz) += c.k_k;
+    const kick<Scalar> c = kick_at(start);
+    matrix<Scalar, 3, 3> at_start;
+    at_start << w.angle * c.tx_tx, w.angle * c.tx_ty, w.angle * c.tx_k,  //
+        w.angle * c.tx_ty, w.angle * c.ty_ty, w.angle * c.ty_k,         //
+        w.angle * c.tx_k, w.angle * c.ty_k, w.angle * c.k_k + lost(start, crossing, w.energy);
+    matrix<Scalar, 5, 3> f;
+    f.col(0) = jacobian.col(s::tx);
+    f.col(1) = jacobian.col(s::ty);
+    f.col(2) = jacobian.col(s::q_over_pz);
+    kalman::detail::set_similarity<Scalar, 5, 3>(q, f, at_start, matrix<Scalar, 5, 5>::Zero());
   }
 };
 

@@ -43,6 +43,7 @@ void check_accuracy(double exponents, double angles) {
   CHECK(worst<T>(-1e-3, 1e-3, 0.0, exp_, exact_exp) < 1.5);
   CHECK(worst<T>(-angles, angles, 1.0, [](const auto& x) { return sin(x); }, [](long double x) { return std::sin(x); }) < 1.5);
   CHECK(worst<T>(-angles, angles, 1.0, [](const auto& x) { return cos(x); }, [](long double x) { return std::cos(x); }) < 1.5);
+  CHECK(worst<T>(-angles, angles, 1.0, [](const auto& x) { return sincos_of(x).cosine; }, [](long double x) { return std::cos(x); }) < 1.5);
   CHECK(worst<T>(-0.1, 0.1, 0.0, [](const auto& x) { return sin(x); }, [](long double x) { return std::sin(x); }) < 1.5);
 }
 

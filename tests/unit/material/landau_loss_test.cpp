@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 #include <scifi/material/landau_loss.hpp>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -40,4 +41,23 @@ TEST_CASE("nothing is lost in vacuum and in no thickness", "[material]") {
   const auto c = crossing_particle_of(200.0, muon_plus, 1.0);
   const std::array nothing{landau_slab_of(muon_plus, whole(materials::vacuum, 10.0), 1.0, 0.0), landau_slab_of(muon_plus, whole(materials::mylar, 0.0), 1.0, 0.0)};
   CHECK(loss_in_landau_slabs(c, muon_plus, nothing).value == 0.0);
+}
+
+TEST_CASE("polynomials of a stack's loss are its formula, in every region of the density effect and where the loss is bounded", "[material]") {
+  slab_stack<4> stack;
+  stack.add(whole(materials::mylar, 0.025)).add(whole(materials::aluminium, 0.1)).add(whole(materials::polystyrene, 0.6273)).add(whole(materials::vacuum, 3.0));
+  const auto prepared = median_energy_loss{5.0}.prepared(muon_plus, stack);
+  std::array<landau_slab, 4> slabs;
+  for (std::size_t i = 0; i < 4; ++i) slabs[i] = median_energy_loss{5.0}.prepared_slab(muon_plus, stack[i]);
+  double worst = 0.0, worst_slope = 0.0;
+  for (double p = 20.0; p < 4000.0; p *= 1.0007) {
+    for (const double path : {1.0, 1.3}) {
+      const auto c = crossing_particle_of(p, muon_plus, path);
+      const auto found = prepared.loss(c), expected = loss_in_landau_slabs(c, muon_plus, slabs);
+      worst = std::max({worst, std::abs(found.value / expected.value - 1.0), std::abs(found.d_value_d_path_factor / expected.d_value_d_path_factor - 1.0)});
+      worst_slope = std::max(worst_slope, std::abs(found.d_value_d_p - expected.d_value_d_p) * p / expected.value);
+    }
+  }
+  CHECK(worst < 1e-14);
+  CHECK(worst_slope < 1e-11);
 }
