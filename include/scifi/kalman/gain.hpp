@@ -25,7 +25,7 @@ struct gain {
   vector<Scalar, M> scaled_residual;
   /// r' S^-1 r; NaN where S cannot be inverted.
   Scalar chi2;
-  /// none, singular_innovation or not_finite.
+  /// none, singular_innovation, not_finite, or not_positive_definite for a measurement with a negative variance.
   reason why = reason::none;
 
   /// K = P H' S^-1, N x M.
@@ -54,7 +54,9 @@ template <unsigned Seen, class Scalar, int N, int M>
     }
   });
   out.factor.factorise(out.residual_covariance);
-  const auto regular = out.factor.ok();
+  Scalar least(seen.covariance(0, 0));
+  for (int i = 1; i < M; ++i) least = smaller_of<Scalar>(least, seen.covariance(i, i));
+  const auto regular = out.factor.ok() && least >= Scalar(0.0);
   copy_columns<Scalar, N, M>(out.decorrelated, out.cross);
   out.factor.template decorrelate<N>(out.decorrelated);
   const vector<Scalar, M> y = out.factor.half_solve(seen.residual);
@@ -68,6 +70,7 @@ template <unsigned Seen, class Scalar, int N, int M>
     Scalar trace(0.0);
     for (int i = 0; i < M; ++i) trace += out.residual_covariance(i, i);
     out.why = any_of(is_finite<Scalar>(trace)) ? reason::singular_innovation : reason::not_finite;
+    if (any_of(least < Scalar(0.0))) out.why = reason::not_positive_definite;
   }
 }
 

@@ -28,7 +28,7 @@ struct square_root {
     // white = S^-1/2 residual, by forward substitution; the mean moves by (K S^1/2) white.
     vector<Scalar, M> white;
     Scalar chi2(0.0);
-    Scalar least(lower(0, 0));
+    Scalar least(lower(0, 0)), variance(seen.covariance(0, 0));
     for (int i = 0; i < M; ++i) {
       Scalar sum(seen.residual(i));
       for (int k = 0; k < i; ++k) sum -= lower(i, k) * white(k);
@@ -36,13 +36,16 @@ struct square_root {
       white(i) = sum / select(positive, lower(i, i), Scalar(1.0));
       chi2 += white(i) * white(i);
       least = smaller_of<Scalar>(least, lower(i, i));
+      variance = smaller_of<Scalar>(variance, seen.covariance(i, i));
     }
-    const auto regular = least > Scalar(0.0);
+    // The factor of a negative variance would be taken for zero.
+    const auto regular = least > Scalar(0.0) && variance >= Scalar(0.0);
     chi2 = select(regular, chi2, Scalar(std::numeric_limits<double>::quiet_NaN()));
     const matrix<Scalar, M, M> root = lower.template topLeftCorner<M, M>();
     const matrix<Scalar, M, M> s = detail::symmetric_sum<Scalar, M, M>(matrix<Scalar, M, M>::Zero(), root, root);
     reason why = reason::none;
     if (!any_of(regular)) why = any_of(is_finite<Scalar>(s(0, 0))) ? reason::singular_innovation : reason::not_finite;
+    if (!any_of(regular) && any_of(variance < Scalar(0.0))) why = reason::not_positive_definite;
     auto out = not_yet_updated(prior, seen, s, chi2, why);
     if (!out.status.ok()) return out;
 

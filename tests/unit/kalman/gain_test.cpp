@@ -53,3 +53,16 @@ TEST_CASE("a residual covariance that cannot be inverted is named", "[kalman]") 
   CHECK(kalman::optimal_gain(nan, exact).why == kalman::reason::not_finite);
   CHECK(kalman::optimal_gain(nan, twice).why == kalman::reason::not_finite);
 }
+
+TEST_CASE("a measurement with a negative variance is refused though the residual's is positive", "[kalman]") {
+  const Eigen::Matrix2d p = Eigen::Vector2d(4.0, 9.0).asDiagonal();
+  const kalman::innovation<double, 2, 1> negative{scifi::vector<double, 1>::Constant(1.0), {1.0, 0.0}, scifi::matrix<double, 1, 1>::Constant(-1.0)};
+  CHECK(kalman::optimal_gain(p, negative).residual_covariance(0, 0) == 3.0);
+  CHECK(kalman::optimal_gain(p, negative).why == kalman::reason::not_positive_definite);
+  CHECK(std::isnan(kalman::optimal_gain(p, negative).chi2));
+  const Eigen::Matrix2d second = Eigen::Vector2d(1.0, -1.0).asDiagonal();
+  const kalman::innovation<double, 2, 2> both{{1.0, 1.0}, Eigen::Matrix2d::Identity(), second};
+  CHECK(kalman::optimal_gain(p, both).why == kalman::reason::not_positive_definite);
+  const kalman::innovation<double, 2, 1> none{scifi::vector<double, 1>::Constant(1.0), {1.0, 0.0}, scifi::matrix<double, 1, 1>::Zero()};
+  CHECK(kalman::optimal_gain(p, none).why == kalman::reason::none);
+}

@@ -70,3 +70,11 @@ TEST_CASE("an exact measurement of something known exactly is refused", "[kalman
   CHECK(u.posterior.mean == known.mean);
   CHECK(std::isnan(u.chi2));
 }
+
+TEST_CASE("a measurement with a negative variance is not taken for an exact one", "[kalman]") {
+  const kalman::factored_estimate<double, 2> before{{1.0, 2.0}, Eigen::Vector2d(2.0, 1.0).asDiagonal()};
+  const auto u = kalman::square_root{}(before, models::linear_values<2, 1>{scifi::vector<double, 1>::Constant(3.0), {1.0, 0.0}, scifi::matrix<double, 1, 1>::Constant(-1.0)});
+  CHECK(u.status.why == kalman::reason::not_positive_definite);
+  CHECK(u.posterior.mean == before.mean);
+  CHECK(std::isnan(u.chi2));
+}
