@@ -5,6 +5,7 @@
 #include <concepts>
 #include <cstddef>
 #include <span>
+#include <stdexcept>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -17,6 +18,7 @@
 #include <scifi/candidate_to_track/write_track.hpp>
 #include <scifi/core/lane.hpp>
 #include <scifi/core/pack_math.hpp>
+#include <scifi/core/refuse.hpp>
 #include <scifi/event/candidate.hpp>
 #include <scifi/event/cluster.hpp>
 #include <scifi/event/space_point.hpp>
@@ -52,6 +54,7 @@ struct track_fit_options {
 /// All material and the policies given act between the surfaces. Linearised about a reference track, so that the first, badly known slopes do no harm.
 /// `Flight` carries a bent track in vacuum: the helix of `options.field`, or a nystrom_propagator in any field. `fit_batch` fits many at once, one in
 /// each SIMD lane. `Refit` (robust_refit) may have a second look at a track that fits badly, `Probability` says how badly. Const, shared between threads.
+/// A tracker without planes is refused with std::invalid_argument.
 template <class EnergyLoss, class Scattering, class Straggling, class Update = kalman::symmetric_form, class Gate = kalman::no_gate, class Flight = helix_propagator,
           class Refit = no_refit, class Probability = gaussian_probability>
 class track_fitter {
@@ -74,7 +77,7 @@ class track_fitter {
         refit_(refit),
         probability_(probability),
         travel_(where.beam_direction),
-        path_(fit_path_of(where)),
+        path_(with_planes(fit_path_of(where))),
         helix_({flight, loss, hypothesis, where.beam_direction}, {scattering, straggling, hypothesis}, update, gate),
         line_({{}}, {scattering, hypothesis, options.line_momentum}, update, gate) {
     for (const leg& l : path_.legs) helix_legs_.emplace_back(l, loss, scattering, straggling, hypothesis);
@@ -136,6 +139,11 @@ class track_fitter {
  private:
   /// A flight that chooses its steps would choose them for all lanes together, and a track would depend on its neighbours.
   static constexpr bool lanes_agree = std::same_as<Flight, helix_propagator>;
+
+  [[nodiscard]] static fit_path with_planes(fit_path path) {
+    if (path.surfaces.empty()) detail::refuse<std::invalid_argument>("scifi: a tracker without planes has nothing to fit a track to");
+    return path;
+  }
 
   void fit_one(const fit_job& job, fitted_track& out, buffers& work) const {
     if (job.from->shape == track_shape::helix) {

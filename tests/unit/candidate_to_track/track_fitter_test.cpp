@@ -320,6 +320,10 @@ TEST_CASE("a candidate without clusters gives a track that says so", "[candidate
   CHECK(std::isnan(f.result.p_value));
 }
 
+TEST_CASE("a tracker without planes is refused in words", "[candidate_to_track]") {
+  CHECK_THROWS_WITH(without_material(tracker{}, three_tesla), "scifi: a tracker without planes has nothing to fit a track to");
+}
+
 TEST_CASE("a fit that fails is a track with its status and without points", "[candidate_to_track]") {
   const tracker& t = in(mice::downstream);
   const vector<double, 5> start = state(20.0, 0.15, -30.0, 0.1, 1.0 / 180.0);
