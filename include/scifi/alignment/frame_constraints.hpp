@@ -7,8 +7,6 @@
 #include <utility>
 #include <vector>
 
-#include <Eigen/QR>
-
 #include <scifi/alignment/solution.hpp>
 #include <scifi/alignment/tracker_parameters.hpp>
 
@@ -32,17 +30,27 @@ enum class frame {
   }
   for (const station& s : parameters.where().stations) {
     if (s.id != station_id) continue;
-    const auto planes = static_cast<Eigen::Index>(s.planes.size());
-    Eigen::Matrix<double, Eigen::Dynamic, 2> alphas(planes, 2);
-    for (Eigen::Index p = 0; p < planes; ++p) {
-      const double angle = s.planes[static_cast<std::size_t>(p)].angle + s.in_tracker.angle;
-      alphas.row(p) << std::cos(angle), std::sin(angle);
+    const auto planes = static_cast<double>(s.planes.size());
+    const auto angle = [&s](std::size_t p) { return s.planes[p].angle + s.in_tracker.angle; };
+    // Least squares for (x, y): the matrix sum of (cos, sin)(cos, sin)' has its axes at half the angle of the sum of (cos 2 phi, sin 2 phi), and there the sums
+    // (planes +- length of that) / 2. What no plane measures has none, and does not move.
+    double cos2 = 0.0, sin2 = 0.0;
+    for (std::size_t p = 0; p < s.planes.size(); ++p) {
+      cos2 += std::cos(2.0 * angle(p));
+      sin2 += std::sin(2.0 * angle(p));
     }
-    const Eigen::MatrixXd nearest = alphas.completeOrthogonalDecomposition().pseudoInverse();
-    for (Eigen::Index p = 0; p < planes; ++p) {
+    const double axis = 0.5 * std::atan2(sin2, cos2);
+    const double length = std::hypot(cos2, sin2);
+    constexpr double none = 1.0e-12;
+    const auto nearest = [&](std::size_t p) {
+      const double along = std::cos(angle(p) - axis) * 2.0 / (planes + length);
+      const double across = planes - length > none * planes ? std::sin(angle(p) - axis) * 2.0 / (planes - length) : 0.0;
+      return how == motion::x ? along * std::cos(axis) - across * std::sin(axis) : along * std::sin(axis) + across * std::cos(axis);
+    };
+    for (std::size_t p = 0; p < s.planes.size(); ++p) {
       const bool turns = how == motion::rotation;
       const int i = parameters.find(station_id, static_cast<int>(p), turns ? motion::rotation : motion::along);
-      if (i >= 0) out.push_back({i, turns ? 1.0 / static_cast<double>(planes) : nearest(how == motion::x ? 0 : 1, p)});
+      if (i >= 0) out.push_back({i, turns ? 1.0 / planes : nearest(p)});
     }
   }
   return out;

@@ -24,6 +24,18 @@ struct reduced_track {
   Eigen::VectorXd own;          ///< for each of `parameters`: what the track would say of it if track and other parameters were known, 1/sigma^2
 };
 
+namespace detail {
+
+/// Reflection `k` of a QR factorisation, applied to `m` from the left; Q is the product of all of them, the first one leftmost. One by one they are as fast as in
+/// blocks for factors of some ten columns, and Eigen's sequence of reflections is slow to compile.
+inline void reflect(const Eigen::ColPivHouseholderQR<Eigen::MatrixXd>& qr, Eigen::Index k, Eigen::MatrixXd& m, Eigen::VectorXd& work) {
+  const Eigen::Index below = qr.rows() - k;
+  work.resize(m.cols());
+  m.bottomRows(below).applyHouseholderOnTheLeft(qr.matrixQR().col(k).tail(below - 1), qr.hCoeffs()[k], work.data());
+}
+
+}  // namespace detail
+
 /// Eliminates the parameters of a track from its m equations.
 ///
 /// Millepede (Blobel and Kleinwort, hep-ex/0208021, section 3) subtracts G' inv(Gamma) G from the normal equations. Here the equations are divided by
@@ -60,7 +72,7 @@ class local_elimination {
         out.status = failure::singular_track;
         return;
       }
-      rest_.applyOnTheLeft(qr_.householderQ().adjoint());
+      for (Eigen::Index k = 0; k < p; ++k) detail::reflect(qr_, k, rest_, work_);
     }
     out.rows = rest_.bottomLeftCorner(m - p, g);
     out.residuals = rest_.bottomRightCorner(m - p, 1);
@@ -90,6 +102,7 @@ class local_elimination {
   }
 
   Eigen::MatrixXd local_, rest_;
+  Eigen::VectorXd work_;
   Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr_;
 };
 

@@ -92,14 +92,17 @@ struct solution {
   Eigen::VectorXd fixed = Eigen::VectorXd::Zero(n);  // the point of the constraints nearest to zero
   Eigen::MatrixXd along = Eigen::MatrixXd::Identity(n, n);
   Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr;
+  Eigen::VectorXd work;
+  Eigen::Index rank = 0;
   if (c > 0) {
     qr.setThreshold(1.0e-10);
     qr.compute(across);
-    const Eigen::Index rank = qr.rank();
-    const Eigen::MatrixXd q = qr.householderQ();
-    const Eigen::VectorXd ordered = qr.colsPermutation().transpose() * value;
-    const auto r = qr.matrixR().topLeftCorner(rank, rank).triangularView<Eigen::Upper>();
-    fixed = q.leftCols(rank) * r.transpose().solve(ordered.head(rank));
+    rank = qr.rank();
+    Eigen::MatrixXd q = along;
+    for (Eigen::Index k = std::min(n, c); k-- > 0;) detail::reflect(qr, k, q, work);
+    Eigen::VectorXd within = (qr.colsPermutation().transpose() * value).head(rank);
+    qr.matrixR().topLeftCorner(rank, rank).triangularView<Eigen::Upper>().transpose().solveInPlace(within);
+    fixed = q.leftCols(rank) * within;
     const double allowed = 1.0e-8 * (1.0 + value.norm());
     if (!((across.transpose() * fixed - value).norm() <= allowed)) {
       out.status = failure::contradictory_constraints;
@@ -130,7 +133,14 @@ struct solution {
   }
   out.values = unit.cwiseProduct(scaled_values);
   const Eigen::VectorXd force = gradient - scaled * scaled_values;
-  if (c > 0) out.multipliers = qr.solve(force).cwiseQuotient(length);
+  if (c > 0) {
+    Eigen::MatrixXd turned = force;
+    for (Eigen::Index k = 0; k < rank; ++k) detail::reflect(qr, k, turned, work);
+    Eigen::VectorXd multipliers = Eigen::VectorXd::Zero(c);
+    multipliers.head(rank) = turned.col(0).head(rank);
+    qr.matrixR().topLeftCorner(rank, rank).triangularView<Eigen::Upper>().solveInPlace(multipliers.head(rank));
+    out.multipliers = (qr.colsPermutation() * multipliers).cwiseQuotient(length);
+  }
   out.chi2 -= scaled_values.dot(gradient + force);
   out.ndf -= static_cast<long>(free);
   return out;

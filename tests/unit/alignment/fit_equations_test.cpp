@@ -22,19 +22,16 @@ struct compared {
 };
 
 compared compare(int id, double field) {
-  const detector where = test::one_tracker(id);
-  const auto chain = make_reconstruction(where, {.field = field, .fibre = {}});
-  const fit_equations<test::standard_fitter> equations(chain.trackers().front().fit_track);
-  const tracker_parameters parameters(where.trackers.front(), {});
-  fit_equations<test::standard_fitter>::buffers work;
+  const tracker_parameters parameters(test::tracker_of_mice(id), {});
+  test::tracks_of_chain tracks(parameters, field);
   track_equations track_rows;
   local_elimination eliminate;
   reduced_track reduced;
   compared out;
-  for (event& e : test::crossing_tracks(where.trackers.front(), field, 40, 3)) {
-    test::reconstruct(chain, e);
+  for (event& e : test::crossing_tracks(parameters.where(), field, 40, 3)) {
+    tracks.reconstruct(e);
     for (const track& t : e.tracks) {
-      REQUIRE(equations(parameters, e, t, track_rows, work) == failure::none);
+      REQUIRE(tracks.equations(e, t, track_rows) == failure::none);
       eliminate(track_rows, parameters.size(), reduced);
       REQUIRE(reduced.status == failure::none);
       out.largest = std::max(out.largest, std::abs(reduced.chi2 - t.chi2));
@@ -68,19 +65,16 @@ TEST_CASE("the equations of a helix have the chi2 of its filter", "[alignment]")
 }
 
 TEST_CASE("a track whose fit stopped has no equations", "[alignment]") {
-  const detector where = test::one_tracker(mice::downstream);
-  const auto chain = make_reconstruction(where, {});
-  const fit_equations<test::standard_fitter> equations(chain.trackers().front().fit_track);
-  event e = test::crossing_tracks(where.trackers.front(), 0.0, 1, 3).front();
-  test::reconstruct(chain, e);
+  const tracker_parameters parameters(test::tracker_of_mice(mice::downstream), {});
+  test::tracks_of_chain tracks(parameters, 0.0);
+  event e = test::crossing_tracks(parameters.where(), 0.0, 1, 3).front();
+  tracks.reconstruct(e);
   REQUIRE(e.tracks.size() == 1);
   track_equations rows;
-  fit_equations<test::standard_fitter>::buffers work;
-  const tracker_parameters parameters(where.trackers.front(), {});
-  CHECK(equations(parameters, e, e.tracks[0], rows, work) == failure::none);
+  CHECK(tracks.equations(e, e.tracks[0], rows) == failure::none);
   e.tracks[0].status = {kalman::step_kind::predict, kalman::reason::not_finite};
-  CHECK(equations(parameters, e, e.tracks[0], rows, work) == failure::too_few_measurements);
+  CHECK(tracks.equations(e, e.tracks[0], rows) == failure::too_few_measurements);
   e.tracks[0].status = {};
   e.tracks[0].points = 0;
-  CHECK(equations(parameters, e, e.tracks[0], rows, work) == failure::too_few_measurements);
+  CHECK(tracks.equations(e, e.tracks[0], rows) == failure::too_few_measurements);
 }

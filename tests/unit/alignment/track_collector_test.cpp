@@ -14,22 +14,19 @@ namespace {
 
 /// Counts of a pass over the same straight tracks, the first one moved far to the side in one station.
 tracker_sum pass(const track_cuts& cuts, double field = 0.0) {
-  const detector where = test::one_tracker(mice::downstream);
-  const auto chain = make_reconstruction(where, {.field = field, .fibre = {}});
-  const tracker_parameters parameters(where.trackers.front(), {});
-  const track_collector<test::standard_fitter> collect(parameters, chain.trackers().front().fit_track, cuts);
-  track_collector<test::standard_fitter>::buffers work;
-  tracker_sum first = collect.empty(), second = collect.empty();
-  std::vector<event> events = test::crossing_tracks(where.trackers.front(), field, 30, 5);
+  const tracker_parameters parameters(test::tracker_of_mice(mice::downstream), {});
+  test::tracks_of_chain tracks(parameters, field, cuts);
+  tracker_sum first(parameters.size()), second(parameters.size());
+  std::vector<event> events = test::crossing_tracks(parameters.where(), field, 30, 5);
   for (std::size_t i = 0; i < events.size(); ++i) {
     if (i == 0) std::erase_if(events[i].digits, [](const digit& d) { return d.id.station == 3 && d.id.plane == 1; });
     if (i == 1 && field == 0.0)  // two channels are 3 mm
       for (digit& d : events[i].digits)
         if (d.id.station == 3 && d.id.plane != 0) d.id.channel += d.id.plane == 1 ? 2 : -2;
-    test::reconstruct(chain, events[i]);
-    collect(events[i], i < 15 ? first : second, work);
+    tracks.reconstruct(events[i]);
+    tracks.collect(events[i], i < 15 ? first : second);
     for (track& t : events[i].tracks) t.tracker = 0;
-    collect(events[i], first, work);  // not this tracker's
+    tracks.collect(events[i], first);  // not this tracker's
   }
   first += second;
   return first;

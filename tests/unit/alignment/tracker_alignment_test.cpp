@@ -27,16 +27,14 @@ tracker displaced(tracker t) {
   return t;
 }
 
-tracker_alignment align(const detector& believed, std::vector<event> events, double field, const free_motions& free, frame keep) {
-  tracker_alignment out(believed.trackers.front(), free, keep, {});
+tracker_alignment align(const tracker& believed, std::vector<event> events, double field, const free_motions& free, frame keep) {
+  tracker_alignment out(believed, free, keep, {});
   for (int i = 0; i < 6 && !out.settled(); ++i) {
-    const auto chain = make_reconstruction({{out.where()}}, {.field = field, .fibre = {}});
-    const track_collector<test::standard_fitter> collect(out.parameters(), chain.trackers().front().fit_track, out.cuts());
-    track_collector<test::standard_fitter>::buffers work;
-    tracker_sum sum = collect.empty();
+    test::tracks_of_chain tracks(out.parameters(), field, out.cuts());
+    tracker_sum sum(out.parameters().size());
     for (event& e : events) {
-      test::reconstruct(chain, e);
-      collect(e, sum, work);
+      tracks.reconstruct(e);
+      tracks.collect(e, sum);
     }
     out.step(sum);
     REQUIRE(out.last().status == failure::none);
@@ -46,14 +44,14 @@ tracker_alignment align(const detector& believed, std::vector<event> events, dou
 
 /// Tracks neither scatter nor slow, so all that errs is the width of a channel, and the errors stated are too large: most are within one, all within three.
 void check_recovered(int id, double field) {
-  const detector believed = test::one_tracker(id);
-  const tracker real = displaced(believed.trackers.front());
+  const tracker believed = test::tracker_of_mice(id);
+  const tracker real = displaced(believed);
   const tracker_alignment found = align(believed, test::crossing_tracks(real, field, 200, 21), field, {}, frame::ends);
   CHECK(found.settled());
   for (std::size_t s = 0; s < real.stations.size(); ++s) {
     const placement& truth = real.stations[s].in_tracker;
     const placement& now = found.where().stations[s].in_tracker;
-    const placement& before = believed.trackers.front().stations[s].in_tracker;
+    const placement& before = believed.stations[s].in_tracker;
     const auto check = [&](motion how, double difference, double moved) {
       const int i = found.parameters().find(static_cast<int>(s) + 1, -1, how);
       INFO(name_of(found.parameters()[i]));
@@ -125,8 +123,8 @@ TEST_CASE("displaced stations are found with straight tracks", "[alignment]") { 
 TEST_CASE("displaced stations are found with helices, against the beam's direction in z too", "[alignment]") { check_recovered(mice::upstream, 3.0 * units::tesla); }
 
 TEST_CASE("a displaced plane is found among the planes", "[alignment]") {
-  const detector believed = test::one_tracker(mice::downstream);
-  tracker real = believed.trackers.front();
+  const tracker believed = test::tracker_of_mice(mice::downstream);
+  tracker real = believed;
   plane& moved = real.stations[2].planes[1];
   moved.central_channel += 0.5 / moved.channel_width;
   moved.angle += 0.005;
@@ -141,8 +139,8 @@ TEST_CASE("a displaced plane is found among the planes", "[alignment]") {
 }
 
 TEST_CASE("without tracks nothing moves and the status says why", "[alignment]") {
-  const detector believed = test::one_tracker(mice::downstream);
-  tracker_alignment a(believed.trackers.front(), {}, frame::ends, {});
+  const tracker believed = test::tracker_of_mice(mice::downstream);
+  tracker_alignment a(believed, {}, frame::ends, {});
   a.step(tracker_sum(a.parameters().size()));
   CHECK(a.last().status == failure::undetermined_parameters);
   CHECK(a.moved().norm() == 0.0);
