@@ -75,14 +75,15 @@ class combination_search {
     }
   }
 
-  [[nodiscard]] double ndf() const { return 2.0 * static_cast<double>(trial_.stations.size()) - (trial_.bent() ? 5.0 : 4.0); }
+  /// How far ahead points are looked at: the whole chi2 that a candidate may have, twice, since hard scattering upstream moves the chords too.
+  [[nodiscard]] double furthest() const { return 2.0 * chi2_per_ndf_ * (2.0 * static_cast<double>(trial_.stations.size()) - (trial_.bent() ? 5.0 : 4.0)); }
 
   /// Whether a point of the next station may belong to a track of this curvature through the chosen three: asked before the fit, which takes longer.
   [[nodiscard]] bool goes_on(double w) {
     search_trial& t = trial_;
     if (t.stations.size() == 3 || std::abs(w) > t.turn(3).largest()) return true;
     bool any = false;
-    t.each_ahead(t.chords(w), w, chi2_per_ndf_ * ndf(), [&any](int, double) { any = true; });
+    t.each_ahead(t.chords(w), w, furthest(), [&any](int, double) { any = true; });
     return any;
   }
 
@@ -116,7 +117,7 @@ class combination_search {
     };
     const double w = fit.curvature();
     if (std::abs(w) <= t.turn(level).largest()) {
-      t.each_ahead(t.chords(w), w, chi2_per_ndf_ * ndf(), [&try_point](int next, double) { try_point(next); });
+      t.each_ahead(t.chords(w), w, furthest(), [&try_point](int next, double) { try_point(next); });
       return;
     }
     for (const int next : t.list(level)) {
