@@ -15,6 +15,7 @@
 #include <scifi/io/track_reader.hpp>
 #include <scifi/io/truth_reader.hpp>
 
+#include "reconstruct/chains.hpp"
 #include "reconstruct/event_source.hpp"
 
 /// Events put together from the files that tell of them: digits, tracks, track points, truth, each where it was given. Clusters and space points are made
@@ -27,7 +28,7 @@ class display_events {
 
   /// The detector must outlive it. Throws scifi::input_error.
   display_events(const files& from, const scifi::detector& d, const scifi::reconstruction_options& choice)
-      : detector_(d), reconstruct_(scifi::make_reconstruction(d, choice)) {
+      : detector_(d), chain_(make_chain(d, choice)) {
     clusters_.min_npe = choice.min_npe;
     clusters_.resolution.fibre = choice.fibre;
     if (!from.digits.empty()) digits_.emplace(from.digits, d);
@@ -61,8 +62,8 @@ class display_events {
   void advance() { more_digits_ = digits_ && digits_->read(next_); }
 
   /// Tracks first, where they are looked for, of all consistent triplets; then, to be seen, those space points that share no cluster.
-  void add_space_points(scifi::event& e) const {
-    if (!tracks_) reconstruct_(e);
+  void add_space_points(scifi::event& e) {
+    if (!tracks_) reconstruct(chain_, {&e, 1}, work_);
     else clusters_(detector_, e.digits, e.clusters);
     e.candidates.clear();
     e.space_points.clear();
@@ -82,7 +83,8 @@ class display_events {
   }
 
   const scifi::detector& detector_;
-  decltype(scifi::make_reconstruction(scifi::detector(), {})) reconstruct_;
+  helix_chain chain_;
+  helix_chain::buffers work_;
   scifi::cluster_finder<scifi::fibre_resolution> clusters_;
   std::optional<event_source> digits_;
   std::optional<scifi::track_reader> tracks_;

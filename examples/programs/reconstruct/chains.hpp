@@ -17,6 +17,8 @@ using map_chain = scifi::standard_reconstruction<scifi::nystrom_propagator<scifi
 /// The chain in the field that was chosen. Throws std::invalid_argument.
 [[nodiscard]] helix_chain make_chain(const scifi::detector& where, const scifi::reconstruction_options& options, const helix_flight& flight_in);
 [[nodiscard]] map_chain make_chain(const scifi::detector& where, const scifi::reconstruction_options& options, const map_flight& flight_in);
+/// The chain in the uniform field that the options say.
+[[nodiscard]] helix_chain make_chain(const scifi::detector& where, const scifi::reconstruction_options& options);
 
 /// Reconstructs a block of events.
 void reconstruct(const helix_chain& chain, std::span<scifi::event> events, helix_chain::buffers& work);
