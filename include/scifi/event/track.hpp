@@ -16,8 +16,8 @@ struct track_point {
   int cluster = -1;                       ///< index of the cluster used here, or -1
   bool outlier = false;                   ///< the cluster was there and the gate refused it
   double chi2 = 0.0;                      ///< increment of the filter
-  double residual = 0.0;                  ///< measured - fitted with this measurement removed, mm; NaN without one
-  double pull = 0.0;                      ///< residual over its standard deviation; NaN without one
+  double residual = 0.0;                  ///< measured - fitted with this measurement removed, mm; NaN without one, or if it has no error
+  double pull = 0.0;                      ///< residual over its standard deviation; NaN like it
 };
 
 /// A fitted track. One that the fit puts outside the active radius at the reference surface is not kept: it never was there.
