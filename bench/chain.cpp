@@ -200,7 +200,7 @@ int main(int argc, char** argv) {
     if (s.tracks != 1 && s.tracks != 4) continue;
     const std::string tracks = std::to_string(s.tracks);
     for (const int threads : {1, static_cast<int>(std::max(1U, std::thread::hardware_concurrency()))})
-      benchmark::RegisterBenchmark(("throughput/" + tracks).c_str(), [&s](benchmark::State& state) { throughput(state, s); })->Threads(threads)->UseRealTime();
+      benchmark::RegisterBenchmark(("throughput/" + tracks).c_str(), [&s](benchmark::State& state) { throughput(state, s); })->Threads(threads)->UseRealTime()->MinTime(0.3);  // threads take time to start
     benchmark::RegisterBenchmark(("latency/" + tracks).c_str(), [&s](benchmark::State& state) { latency(state, s); });
   }
   benchmark::Initialize(&argc, argv);
