@@ -35,7 +35,7 @@ def tests_of(header):
 def fails(options, include, source, scratch):
     """True where a test, compiled against `include`, does not compile or does not pass."""
     program = scratch / source.stem
-    shared = [source.parent / f"{name}.cpp" for name in re.findall(r'^#include "(\w+)\.hpp"', source.read_text(encoding="utf-8"), re.MULTILINE)]
+    shared = [source.parent / f"{name}.cpp" for name in re.findall(r'^#include "(?:unit/\w+/)?(\w+)\.hpp"', source.read_text(encoding="utf-8"), re.MULTILINE)]
     command = [options.compiler, "-std=c++20", "-O1", "-I", include, "-I", ROOT / "tests", "-isystem", options.eigen,
                f'-DSCIFI_TEST_REFERENCE="{ROOT}/tests/reference"', '-DSCIFI_SHARED_DATA_DEFAULT=""',
                source, *(s for s in shared if s.exists()), options.main, "-o", program, "-lz", "-lpthread"]
