@@ -22,10 +22,12 @@ ALLOWED = {
     "kalman": CORE,
     "material": CORE,
     "field": CORE,
+    "arc": CORE,
     "geometry": CORE | {"material"},
     "track_model": FIT | {"field"},
     "event": CORE | {"geometry", "kalman"},
     **{arrow: NOUNS for arrow in ARROWS},
+    "space_point_to_candidate": NOUNS | {"arc"},
     "chain": NOUNS | set(ARROWS),
     "information": NOUNS | {"candidate_to_track"},
     "alignment": NOUNS | {"candidate_to_track"},
@@ -36,10 +38,6 @@ ALLOWED = {
 # headers directly in include/scifi
 UMBRELLAS = {
     "kalman.hpp": CORE | {"kalman"},
-    "material.hpp": CORE | {"material"},
-    "geometry.hpp": CORE | {"material", "geometry"},
-    "track_model.hpp": FIT | {"field", "track_model"},
-    "event.hpp": ALLOWED["event"] | {"event"},
     "scifi.hpp": NOUNS | set(ARROWS) | {"chain", "information"},
     "version.hpp": set(),
 }

@@ -11,6 +11,8 @@
 
 #include <zlib.h>
 
+#include "support/message_of.hpp"
+
 namespace scifi::test {
 
 /// A new empty folder that is removed with its content at the end of the scope.
@@ -66,17 +68,6 @@ class temporary_folder {
   deflateEnd(&stream);
   if (result != Z_STREAM_END) throw std::runtime_error("zlib");
   return out;
-}
-
-/// The message of the Error that `action` throws, or "(no error)".
-template <class Error, class Action>
-[[nodiscard]] std::string message_of(const Action& action) {
-  try {
-    action();
-  } catch (const Error& e) {
-    return e.what();
-  }
-  return "(no error)";
 }
 
 /// `text` without `prefix` where it begins with it.

@@ -5,10 +5,10 @@
 #include <cmath>
 #include <cstddef>
 
+#include <scifi/arc/arc_fit.hpp>
+#include <scifi/arc/chord_turn.hpp>
 #include <scifi/core/constants.hpp>
 #include <scifi/core/inline_vector.hpp>
-#include <scifi/space_point_to_candidate/arc_fit.hpp>
-#include <scifi/space_point_to_candidate/chord_turn.hpp>
 #include <scifi/space_point_to_candidate/station_scattering.hpp>
 #include <scifi/space_point_to_candidate/track_finder_options.hpp>
 

@@ -5,9 +5,9 @@
 #include <cstddef>
 #include <vector>
 
+#include <scifi/arc/chord_turn.hpp>
 #include <scifi/geometry/tracker.hpp>
 #include <scifi/material/particle.hpp>
-#include <scifi/space_point_to_candidate/chord_turn.hpp>
 #include <scifi/space_point_to_candidate/station_scattering.hpp>
 #include <scifi/space_point_to_candidate/track_finder_options.hpp>
 

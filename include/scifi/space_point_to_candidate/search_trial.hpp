@@ -7,12 +7,12 @@
 #include <span>
 #include <vector>
 
+#include <scifi/arc/arc_fit.hpp>
+#include <scifi/arc/chord_scan.hpp>
+#include <scifi/arc/look_ahead.hpp>
+#include <scifi/arc/point_grid.hpp>
 #include <scifi/event/candidate.hpp>
 #include <scifi/event/space_point.hpp>
-#include <scifi/space_point_to_candidate/arc_fit.hpp>
-#include <scifi/space_point_to_candidate/chord_scan.hpp>
-#include <scifi/space_point_to_candidate/look_ahead.hpp>
-#include <scifi/space_point_to_candidate/point_grid.hpp>
 #include <scifi/space_point_to_candidate/search_setting.hpp>
 #include <scifi/space_point_to_candidate/seed.hpp>
 #include <scifi/space_point_to_candidate/track_finder_options.hpp>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MPL-2.0
 #pragma once
 
+#include <scifi/arc/arc_fit.hpp>
 #include <scifi/kalman/estimate.hpp>
-#include <scifi/space_point_to_candidate/arc_fit.hpp>
 #include <scifi/track_model/slope_state.hpp>
 
 namespace scifi {

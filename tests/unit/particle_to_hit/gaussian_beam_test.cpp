@@ -10,6 +10,7 @@
 #include <scifi/core/units.hpp>
 
 #include "support/catch.hpp"
+#include "support/message_of.hpp"
 
 using namespace scifi;
 
@@ -89,12 +90,7 @@ TEST_CASE("a Gaussian beam that cannot be is refused by name", "[particle_to_hit
   const auto refused = [](auto change, const char* culprit) {
     gaussian_beam beam;
     change(beam);
-    std::string message;
-    try {
-      beam.check();
-    } catch (const std::invalid_argument& e) {
-      message = e.what();
-    }
+    const std::string message = test::message_of<std::invalid_argument>([&beam] { beam.check(); });
     CAPTURE(culprit, message);
     CHECK(message.find(culprit) != std::string::npos);
   };

@@ -8,6 +8,7 @@
 #include <scifi/geometry/mice.hpp>
 
 #include "support/catch.hpp"
+#include "support/message_of.hpp"
 
 using namespace scifi;
 
@@ -70,12 +71,7 @@ TEST_CASE("a beam from which nothing can be drawn is refused by name", "[particl
   const auto refused = [](auto change, const char* culprit) {
     flat_beam beam;
     change(beam);
-    std::string message;
-    try {
-      beam.check();
-    } catch (const std::invalid_argument& e) {
-      message = e.what();
-    }
+    const std::string message = test::message_of<std::invalid_argument>([&beam] { beam.check(); });
     CAPTURE(culprit, message);
     CHECK(message.find(culprit) != std::string::npos);
   };

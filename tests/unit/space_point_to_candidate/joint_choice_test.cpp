@@ -8,8 +8,10 @@
 #include <scifi/space_point_to_candidate/disjoint.hpp>
 
 #include "support/catch.hpp"
+#include "support/made_candidates.hpp"
 
 using namespace scifi;
+using scifi::test::candidate_of;
 
 namespace {
 
@@ -20,13 +22,6 @@ std::vector<space_point> points() {
   for (space_point& p : out)
     for (int i = 0; i < 3; ++i) p.clusters.push_back(cluster++);
   return out;
-}
-
-candidate of(std::initializer_list<int> points, double chi2) {
-  candidate c;
-  c.space_points = points;
-  c.chi2 = chi2;
-  return c;
 }
 
 const std::vector<space_point> all_points = points();
@@ -48,7 +43,7 @@ std::vector<double> chosen(const std::vector<candidate>& found, const joint_choi
 }  // namespace
 
 TEST_CASE("a candidate better than each of three that it robs of a point gives way to the three", "[space_point_to_candidate]") {
-  const std::vector<candidate> found{of({0, 4, 8}, 1.0), of({0, 1, 2}, 6.0), of({3, 4, 5}, 7.0), of({6, 7, 8}, 8.0)};
+  const std::vector<candidate> found{candidate_of({0, 4, 8}, 1.0), candidate_of({0, 1, 2}, 6.0), candidate_of({3, 4, 5}, 7.0), candidate_of({6, 7, 8}, 8.0)};
   CHECK(chosen(found, {10.0, 0}) == std::vector<double>{6.0, 7.0, 8.0});
   // Against one alone it wins.
   CHECK(chosen({found[0], found[1]}, {10.0, 0}) == std::vector<double>{1.0});
@@ -62,7 +57,7 @@ TEST_CASE("the set chosen is nearly as good as the best of all sets, and better 
     std::vector<candidate> found;
     for (int i = 0; i < 10; ++i) {
       const auto track = [&random, i] { return i < 3 ? i : static_cast<int>(random.uniform(0.0, 3.0)); };
-      found.push_back(of({track(), 3 + track(), 6 + track(), 9 + track()}, i < 3 ? random.uniform(2.0, 16.0) : random.uniform(0.0, 30.0)));
+      found.push_back(candidate_of({track(), 3 + track(), 6 + track(), 9 + track()}, i < 3 ? random.uniform(2.0, 16.0) : random.uniform(0.0, 30.0)));
     }
     const auto score = [&found](unsigned set) {
       std::vector<int> used(12, 0);
@@ -92,19 +87,19 @@ TEST_CASE("the set chosen is nearly as good as the best of all sets, and better 
 }
 
 TEST_CASE("of the same track found twice the better is chosen", "[space_point_to_candidate]") {
-  CHECK(chosen({of({0, 1, 2}, 6.0), of({0, 1, 2}, 4.0), of({0, 1, 3}, 5.0)}, {10.0, 3}) == std::vector<double>{4.0});
+  CHECK(chosen({candidate_of({0, 1, 2}, 6.0), candidate_of({0, 1, 2}, 4.0), candidate_of({0, 1, 3}, 5.0)}, {10.0, 3}) == std::vector<double>{4.0});
 }
 
 TEST_CASE("clusters taken before count as shared", "[space_point_to_candidate]") {
   std::vector<char> used(36, 0);
   used[0] = used[3] = used[8] = 1;
-  CHECK(chosen({of({0, 1, 2}, 6.0)}, {10.0, 3}, used) == std::vector<double>{6.0});
+  CHECK(chosen({candidate_of({0, 1, 2}, 6.0)}, {10.0, 3}, used) == std::vector<double>{6.0});
   used[7] = 1;
-  CHECK(chosen({of({0, 1, 2}, 6.0)}, {10.0, 3}, used).empty());
+  CHECK(chosen({candidate_of({0, 1, 2}, 6.0)}, {10.0, 3}, used).empty());
 }
 
 TEST_CASE("no more than the best ones are weighed, and nothing comes of nothing", "[space_point_to_candidate]") {
-  const std::vector<candidate> found{of({0, 1, 2}, 6.0), of({3, 4, 5}, 5.0), of({6, 7, 8}, 4.0)};
+  const std::vector<candidate> found{candidate_of({0, 1, 2}, 6.0), candidate_of({3, 4, 5}, 5.0), candidate_of({6, 7, 8}, 4.0)};
   CHECK(chosen(found, {10.0, 6, 2}) == std::vector<double>{4.0, 5.0});
   CHECK(chosen({}).empty());
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MPL-2.0
-#include <scifi/space_point_to_candidate/chord_scan.hpp>
+#include <scifi/arc/chord_scan.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -37,7 +37,7 @@ expectation plainly(const planar<double>& first, const planar<double>& second) {
 
 }  // namespace
 
-TEST_CASE("a scan finds the third points that the angle and the lengths of the chords allow, many at once as one by one", "[space_point_to_candidate]") {
+TEST_CASE("a scan finds the third points that the angle and the lengths of the chords allow, many at once as one by one", "[arc]") {
   random_stream random(1, 0, 0);
   chord_scan scan;
   scan.prepare(chord_turn(step1, step2, 0.018), most, matter);
@@ -72,7 +72,7 @@ TEST_CASE("a scan finds the third points that the angle and the lengths of the c
   CHECK(close < hits / 3);
 }
 
-TEST_CASE("where no chord fits, or none is there, a scan finds none", "[space_point_to_candidate]") {
+TEST_CASE("where no chord fits, or none is there, a scan finds none", "[arc]") {
   chord_scan scan;
   scan.prepare(chord_turn(step1, step2, 0.018), most, matter);
   scan.clear();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MPL-2.0
-#include <scifi/space_point_to_candidate/point_grid.hpp>
+#include <scifi/arc/point_grid.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -12,7 +12,7 @@
 
 using namespace scifi;
 
-TEST_CASE("a grid gives the points of a box, each once, wherever the box is", "[space_point_to_candidate]") {
+TEST_CASE("a grid gives the points of a box, each once, wherever the box is", "[arc]") {
   random_stream random(1, 0, 0);
   point_grid grid;
   for (const int size : {0, 1, 2, 9, 100, 3000}) {
@@ -41,7 +41,7 @@ TEST_CASE("a grid gives the points of a box, each once, wherever the box is", "[
   CHECK(grid.empty());
 }
 
-TEST_CASE("a place or reach that is no number finds nothing and does no harm", "[space_point_to_candidate]") {
+TEST_CASE("a place or reach that is no number finds nothing and does no harm", "[arc]") {
   const std::vector<arc_point> where{{{1.0, 2.0}, 0.1, 0.0}, {{-3.0, 5.0}, 0.1, 0.0}};
   point_grid grid;
   grid.fill(std::vector<int>{0, 1}, where);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MPL-2.0
-#include <scifi/space_point_to_candidate/look_ahead.hpp>
+#include <scifi/arc/look_ahead.hpp>
 
 #include <algorithm>
 #include <array>
@@ -43,7 +43,7 @@ chord_turn next_turn(std::size_t last) { return {station_z[last - 1] - station_z
 
 }  // namespace
 
-TEST_CASE("without errors the next point is where it is expected, from three points and from four", "[space_point_to_candidate]") {
+TEST_CASE("without errors the next point is where it is expected, from three points and from four", "[arc]") {
   random_stream random(1, 0, 0);
   for (const double w : {0.0005, -0.003, 0.006, -0.0085}) {
     for (const std::size_t last : {3U, 4U}) {
@@ -59,7 +59,7 @@ TEST_CASE("without errors the next point is where it is expected, from three poi
   }
 }
 
-TEST_CASE("the error of the expected place is the one stated across, and no larger than stated along", "[space_point_to_candidate]") {
+TEST_CASE("the error of the expected place is the one stated across, and no larger than stated along", "[arc]") {
   random_stream random(2, 0, 0);
   constexpr int tracks = 4000;
   for (const double kink : {0.0, 2e-5}) {
@@ -89,7 +89,7 @@ TEST_CASE("the error of the expected place is the one stated across, and no larg
   }
 }
 
-TEST_CASE("the reach is the box around all points within a squared distance of one", "[space_point_to_candidate]") {
+TEST_CASE("the reach is the box around all points within a squared distance of one", "[arc]") {
   random_stream random(3, 0, 0);
   const auto p = flown(0.004, {0.2, 0.15}, 2e-5, 0.12, 4, random);
   const outlook there(chords(p, 2e-5), next_turn(3), 0.004);
@@ -108,7 +108,7 @@ TEST_CASE("the reach is the box around all points within a squared distance of o
   CHECK(reach.y == Approx(furthest_y).epsilon(1e-4));
 }
 
-TEST_CASE("without a first chord nothing is known of the curvature, and the error says so", "[space_point_to_candidate]") {
+TEST_CASE("without a first chord nothing is known of the curvature, and the error says so", "[arc]") {
   random_stream random(4, 0, 0);
   auto p = flown(0.004, {0.2, 0.15}, 2e-5, 0.12, 4, random);
   p[1].position = p[0].position;

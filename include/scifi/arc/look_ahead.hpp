@@ -3,11 +3,11 @@
 
 #include <cmath>
 
+#include <scifi/arc/arc_fit.hpp>
+#include <scifi/arc/chord_turn.hpp>
 #include <scifi/core/constants.hpp>
 #include <scifi/core/planar.hpp>
 #include <scifi/core/scalar.hpp>
-#include <scifi/space_point_to_candidate/arc_fit.hpp>
-#include <scifi/space_point_to_candidate/chord_turn.hpp>
 
 namespace scifi {
 

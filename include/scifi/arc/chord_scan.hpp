@@ -10,11 +10,11 @@
 #include <span>
 #include <vector>
 
+#include <scifi/arc/chord_turn.hpp>
 #include <scifi/core/constants.hpp>
 #include <scifi/core/pack.hpp>
 #include <scifi/core/planar.hpp>
 #include <scifi/core/scalar.hpp>
-#include <scifi/space_point_to_candidate/chord_turn.hpp>
 
 namespace scifi {
 

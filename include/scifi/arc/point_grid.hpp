@@ -7,8 +7,8 @@
 #include <span>
 #include <vector>
 
+#include <scifi/arc/arc_fit.hpp>
 #include <scifi/core/planar.hpp>
-#include <scifi/space_point_to_candidate/arc_fit.hpp>
 
 namespace scifi {
 

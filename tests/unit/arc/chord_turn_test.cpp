@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MPL-2.0
-#include <scifi/space_point_to_candidate/chord_turn.hpp>
+#include <scifi/arc/chord_turn.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -22,7 +22,7 @@ complex exact(double w, double step1, double step2) {
 
 }  // namespace
 
-TEST_CASE("the second chord of a helix is the first one times the factor", "[space_point_to_candidate]") {
+TEST_CASE("the second chord of a helix is the first one times the factor", "[arc]") {
   for (const auto& [step1, step2] : {std::pair{200.0, 250.0}, {300.0, 350.0}, {450.0, 300.0}}) {
     const chord_turn turn(step1, step2, 0.018);
     CHECK(turn.half() == 0.5 * (step1 + step2));
@@ -44,7 +44,7 @@ TEST_CASE("the second chord of a helix is the first one times the factor", "[spa
   }
 }
 
-TEST_CASE("a straight line goes on as the distances do, and the ratio is negative once a chord has passed a whole turn", "[space_point_to_candidate]") {
+TEST_CASE("a straight line goes on as the distances do, and the ratio is negative once a chord has passed a whole turn", "[arc]") {
   const chord_turn straight(200.0, 250.0, 0.0);
   CHECK(straight.largest() == 0.0);
   CHECK(straight(0.0).factor.x == Approx(1.25));

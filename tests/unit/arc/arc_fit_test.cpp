@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MPL-2.0
-#include <scifi/space_point_to_candidate/arc_fit.hpp>
+#include <scifi/arc/arc_fit.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -94,7 +94,7 @@ reference all_at_once(const std::vector<arc_point>& points, double slope_varianc
 
 }  // namespace
 
-TEST_CASE("at a given curvature the arc fit is the least squares in all unknowns at once", "[space_point_to_candidate]") {
+TEST_CASE("at a given curvature the arc fit is the least squares in all unknowns at once", "[arc]") {
   for (const double w : {0.0, 1e-7, 0.004, -0.009, 0.018}) {
     for (const double scattering : {0.0, 2e-5}) {
       INFO("curvature " << w << ", scattering " << scattering);
@@ -115,7 +115,7 @@ TEST_CASE("at a given curvature the arc fit is the least squares in all unknowns
   }
 }
 
-TEST_CASE("without curvature and scattering the arc fit is a straight-line regression", "[space_point_to_candidate]") {
+TEST_CASE("without curvature and scattering the arc fit is a straight-line regression", "[arc]") {
   std::vector<arc_point> points = points_of(0.0, {-0.12, 0.05}, 1.0, 9);
   const arc_fit fit = filtered(points, {1e3, 0.0, 0.0}, 0.0, 0.0);
   // Weighted regression in closed form.
@@ -136,7 +136,7 @@ TEST_CASE("without curvature and scattering the arc fit is a straight-line regre
   CHECK(fit.slope_variance() == Approx(s / determinant).epsilon(1e-6));
 }
 
-TEST_CASE("a track without noise is reproduced, with chi2 zero at its curvature", "[space_point_to_candidate]") {
+TEST_CASE("a track without noise is reproduced, with chi2 zero at its curvature", "[arc]") {
   for (const double w : {0.0, 0.0045, -0.0085}) {
     const complex slope(0.2, -0.15);
     const std::vector<arc_point> points = points_of(w, slope, 0.0, 1);
@@ -149,7 +149,7 @@ TEST_CASE("a track without noise is reproduced, with chi2 zero at its curvature"
   }
 }
 
-TEST_CASE("Gauss-Newton in the curvature converges to the minimum of chi2", "[space_point_to_candidate]") {
+TEST_CASE("Gauss-Newton in the curvature converges to the minimum of chi2", "[arc]") {
   constexpr double scattering = 1.5e-5;
   double worst = 0.0;
   for (std::uint64_t seed = 1; seed <= 40; ++seed) {
@@ -181,7 +181,7 @@ TEST_CASE("Gauss-Newton in the curvature converges to the minimum of chi2", "[sp
   CHECK(worst < 0.1);
 }
 
-TEST_CASE("the predicted chi2 after the step is the one found there", "[space_point_to_candidate]") {
+TEST_CASE("the predicted chi2 after the step is the one found there", "[arc]") {
   const arc_prior prior{0.09, 0.0054, 0.0036 * 0.0036};
   for (std::uint64_t seed = 1; seed <= 40; ++seed) {
     const std::vector<arc_point> points = points_of(0.005, {0.2, 0.1}, 1.0, seed);
@@ -194,7 +194,7 @@ TEST_CASE("the predicted chi2 after the step is the one found there", "[space_po
   }
 }
 
-TEST_CASE("the derivatives are those of the state with the curvature, where nothing but the points decides", "[space_point_to_candidate]") {
+TEST_CASE("the derivatives are those of the state with the curvature, where nothing but the points decides", "[arc]") {
   // Two points and a free slope: the state follows the points exactly, so that fixed weights are exact.
   std::vector<arc_point> points = points_of(0.005, {0.2, 0.1}, 0.0, 21);
   points.resize(2);
@@ -212,7 +212,7 @@ TEST_CASE("the derivatives are those of the state with the curvature, where noth
   CHECK(here.d_slope().y == Approx((up.slope().y - down.slope().y) / (2.0 * h)).epsilon(1e-5));
 }
 
-TEST_CASE("the distance of a point counts its own error, that of the prediction and that of the curvature", "[space_point_to_candidate]") {
+TEST_CASE("the distance of a point counts its own error, that of the prediction and that of the curvature", "[arc]") {
   const std::vector<arc_point> points = points_of(0.005, {0.2, 0.1}, 0.0, 3);
   arc_fit fit(points[0], {0.09, 0.005, 1e-8}, 0.005);
   for (std::size_t i = 1; i < 3; ++i) {
@@ -229,7 +229,7 @@ TEST_CASE("the distance of a point counts its own error, that of the prediction 
   CHECK(fit.distance2(off) == Approx(25.0 / (off.variance + fit.prediction_variance())));
 }
 
-TEST_CASE("the distance of true points follows chi-squared with two degrees of freedom", "[space_point_to_candidate]") {
+TEST_CASE("the distance of true points follows chi-squared with two degrees of freedom", "[arc]") {
   double sum = 0.0;
   constexpr int tracks = 4000;
   for (int k = 0; k < tracks; ++k) {
