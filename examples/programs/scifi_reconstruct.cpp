@@ -23,6 +23,7 @@
 
 #include "field/chosen_flight.hpp"
 #include "interruption.hpp"
+#include "ranks.hpp"
 #include "reconstruct/chains.hpp"
 #include "reconstruct/check_sum.hpp"
 #include "reconstruct/command_line.hpp"
@@ -31,7 +32,6 @@
 #include "reconstruct/monitor.hpp"
 #include "reconstruct/ordered_blocks.hpp"
 #include "reconstruct/progress.hpp"
-#include "reconstruct/ranks.hpp"
 #include "reconstruct/run_on_ranks.hpp"
 #include "reconstruct/track_block.hpp"
 #include "reconstruct/track_tables.hpp"

@@ -21,9 +21,11 @@
 #include <scifi/version.hpp>
 
 #include "interruption.hpp"
+#include "ranks.hpp"
 #include "run_program.hpp"
 #include "study/comparison.hpp"
 #include "study/displays.hpp"
+#include "study/gather.hpp"
 #include "study/page.hpp"
 #include "study/study_input.hpp"
 #include "study/to_json.hpp"
@@ -66,39 +68,52 @@ void check(const options& o) {
 /// What is known of a tracker, and whether it has anything at all.
 struct one_tracker {
   tracker_results results;
-  bool used = false;
+  long used = 0;  ///< events with something
+
+  template <class Visit>
+  void each(const Visit& visit) {
+    visit(results);
+    visit(used);
+  }
 };
 
 struct whole_study {
   std::map<int, one_tracker> trackers;
   long events = 0;          // with truth
   long without_truth = 0;   // events with tracks or digits, but no truth
-  json shown;               // displays
+  scifi::study_program::displays shown;
+
+  template <class Visit>
+  void each(const Visit& visit) {
+    for (auto& [id, t] : trackers) visit(t);
+    visit(events);
+    visit(without_truth);
+  }
 };
 
-whole_study fill(const options& o, const scifi::detector& detector, const scifi::fibre_doublet& fibre) {
+/// Every rank reads all files and studies each n-th event; the first one gets the study of all.
+whole_study fill(const options& o, const ranks& all, const scifi::detector& detector, const scifi::fibre_doublet& fibre) {
   scifi::study_program::study_input input(detector, o.truth, o.tracks, o.points, o.digits);
   scifi::study_program::front_half front(detector, o.min_npe, fibre);
-  scifi::study_program::displays displays(o.study.field);
-  whole_study out;
+  whole_study out{.trackers = {}, .shown = scifi::study_program::displays(o.study.field)};
   for (const scifi::tracker& t : detector.trackers) out.trackers.emplace(t.id, one_tracker{tracker_results(t, o.study)});
   scifi::study_program::event_files e;
-  while (input.next(e)) {
+  for (long i = 0; input.next(e); ++i) {
     interruption::throw_if_received();
+    if (i % all.size() != all.rank()) continue;
     e.crossings.empty() ? ++out.without_truth : ++out.events;
     if (!o.digits.empty()) front(e.seen);
     for (const scifi::tracker& t : detector.trackers) {
       one_tracker& here = out.trackers.at(t.id);
       const auto mine = [&t](const auto& one) { return one.tracker == t.id; };
-      here.used = here.used || std::any_of(e.crossings.begin(), e.crossings.end(), mine) || std::any_of(e.seen.tracks.begin(), e.seen.tracks.end(), mine);
+      here.used += std::any_of(e.crossings.begin(), e.crossings.end(), mine) || std::any_of(e.seen.tracks.begin(), e.seen.tracks.end(), mine) ? 1 : 0;
       const auto pairs = here.results.tracks.add(e.crossings, e.seen);
-      displays.add(t, e.crossings, e.seen, pairs);
+      out.shown.add(t, e.crossings, e.seen, pairs);
       if (o.digits.empty()) continue;
       here.results.seen.add(e.seen, t.id);
       here.results.sums.add(e.seen.clusters);
     }
   }
-  out.shown = displays.to_json();
   return out;
 }
 
@@ -123,7 +138,7 @@ json to_json(const options& o, const whole_study& s, const json& before) {
   out["trackers"] = json::array();
   std::optional<tracker_results> all;
   for (const auto& [id, t] : s.trackers) {
-    if (!t.used) continue;
+    if (t.used == 0) continue;
     const scifi::tracker& where = t.results.tracks.where();
     json block = {{"tracker", id}, {"name", where.name}, {"fiducial_radius", where.fiducial_radius}};
     block.update(with_digits(to_json(t.results.tracks, s.events), t.results));
@@ -141,7 +156,7 @@ json to_json(const options& o, const whole_study& s, const json& before) {
       if (t.contains("planes")) out["before"]["trackers"].push_back({{"tracker", t.at("tracker")}, {"planes", t.at("planes")}});
   }
   out["comparison"] = scifi::study_program::comparison(out["all"], before.is_null() ? json() : before.at("all"));
-  out["displays"] = s.shown;
+  out["displays"] = s.shown.to_json();
   return out;
 }
 
@@ -158,29 +173,46 @@ void print_summary(const json& result, const fs::path& folder, bool drawn) {
   fmt::print("\nwritten {}{}\n", (folder / "study.json").string(), drawn ? ", " + (folder / "study.html").string() : "");
 }
 
-void run(options& o) {
-  check(o);
+/// What a study needs besides its events.
+struct setup {
   scifi::detector detector = scifi::mice::trackers();
   scifi::fibre_doublet fibre;
+  json before;
+};
+
+setup prepare(options& o, const ranks& all, const fs::path& target) {
+  all.check_build();
+  check(o);
+  setup out;
   if (!o.geometry.empty()) {
     scifi::any_geometry geometry = scifi::read_any_geometry(o.geometry);
     for (const std::string& note : geometry.notes) fmt::print(stderr, "note: {}\n", note);
     if (!o.given_field)
       if (const auto field = geometry.common_field()) o.field = *field / scifi::units::tesla;
-    detector = std::move(geometry.detector);
-    fibre = geometry.fibre;
+    out.detector = std::move(geometry.detector);
+    out.fibre = geometry.fibre;
   }
   o.field = o.given_field.value_or(o.field);
   o.study.field = o.field * scifi::units::tesla;
-
-  const fs::path folder = o.output;
-  const fs::path target = folder / "study.json";
   std::error_code none;
   if (!o.before.empty() && fs::equivalent(o.before, target, none)) throw std::invalid_argument(o.before + ": would overwrite what is read");
-  const json before = o.before.empty() ? json() : scifi::study_program::read_study(o.before);
-  interruption::listen();
-  const json result = to_json(o, fill(o, detector, fibre), before);
+  if (!o.before.empty()) out.before = scifi::study_program::read_study(o.before);
+  return out;
+}
 
+void run(options& o, const ranks& all) {
+  const fs::path folder = o.output;
+  const fs::path target = folder / "study.json";
+  setup with;
+  all.together([&] { with = prepare(o, all, target); });
+  if (all.leads()) interruption::listen();
+  std::optional<whole_study> found;
+  all.together([&] { found = fill(o, all, with.detector, with.fibre); });
+  scifi::study_program::gather(all, *found);
+  if (!all.leads()) return;
+  const json result = to_json(o, *found, with.before);
+
+  std::error_code none;
   fs::create_directories(folder, none);
   if (!fs::is_directory(folder)) throw scifi::input_error(o.output, 0, "", "is not a folder and cannot be made one");
   scifi::atomic_file out(target);
@@ -194,6 +226,7 @@ void run(options& o) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  const ranks all(argc, argv);
   options o;
   CLI::App app{"Studies how well tracks were reconstructed: writes DIR/study.json with every number, DIR/*.png, DIR/*.svg and the page DIR/study.html.\n"
                "Units: mm, MeV/c, tesla; tracker frame. Tables may be gzip."};
@@ -214,5 +247,7 @@ int main(int argc, char** argv) {
   app.add_option("--wide-pz-edges", o.study.wide_edges.pz, "likewise")->delimiter(',')->capture_default_str();
   app.add_option("--python", o.python, "Python 3 with matplotlib that draws; unless given the one on the path, else the system's");
   app.add_flag("--no-page", o.no_page, "write study.json alone");
-  return run_program("scifi-study", app, argc, argv, [&o] { run(o); });
+  const int status = run_program("scifi-study", app, argc, argv, [&] { run(o, all); });
+  if (all.size() > 1 && interruption::received() != 0) ranks::abort(status);
+  return status;
 }

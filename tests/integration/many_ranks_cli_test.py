@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MPL-2.0
-"""scifi-reconstruct under mpirun: the bytes of a single process, whatever dies.
+"""scifi-reconstruct and scifi-study under mpirun: the bytes of a single process, whatever dies.
 
 Usage: many_ranks_cli_test.py BIN
 BIN is the folder of the programs. Needs the standard library and Open MPI. Exit status 77: there is no Open MPI, or the program was built without SCIFI_MPI.
@@ -187,6 +187,66 @@ class ManyRanks(programs.BesideItsPage):
         self.assertEqual(result.returncode, 3, result.stderr)
         self.assertIn("/dev/full: could not be written: No space left on device", result.stderr)
         self.expect_old()
+
+
+class ManyRanksStudy(programs.InAFolder):
+    INPUT = ("s_truth.csv", "t.csv", "--track-points", "p.csv", "--digits", "s_digits.csv", "--no-page", "-o")
+
+    def setUp(self):
+        if not (programs.BIN / "scifi-study").exists():
+            self.skipTest("no scifi-study")
+        super().setUp()
+        for program, *arguments in (("scifi-simulate", "--events", 2000, "--tracker", "both", "--seed", 4, "--output", "s"), ("scifi-reconstruct", "s_digits.csv", *OUTPUTS)):
+            self.assertEqual(self.run_program(program, *arguments).returncode, 0)
+
+    def on_ranks(self, ranks, *arguments):
+        return [*MPIRUN, "-n", str(ranks), str(programs.BIN / "scifi-study"), *arguments]
+
+    def run_on_ranks(self, ranks, *arguments):
+        return subprocess.run(self.on_ranks(ranks, *arguments), cwd=self.folder, capture_output=True, text=True, timeout=120, check=False)
+
+    def test_the_study_is_that_of_one_process(self):
+        single = self.run_program("scifi-study", *self.INPUT, "one")
+        self.assertEqual(single.returncode, 0, single.stderr)
+        expected = (self.folder / "one" / "study.json").read_bytes()
+        self.assertEqual([d["title"] for d in json.loads(expected)["displays"]][:1], ["a typical track"])
+        for ranks in (1, 2, 3, 5):
+            with self.subTest(ranks=ranks):
+                result = self.run_on_ranks(ranks, *self.INPUT, "many")
+                self.assertEqual(result.returncode, 0, result.stderr)
+                self.assertTrue((self.folder / "many" / "study.json").read_bytes() == expected, "study.json has other bytes")
+                self.assertEqual(result.stdout.replace("many/", "one/"), single.stdout)
+
+    def test_what_is_wrong_is_said_once_and_leaves_the_old_study(self):
+        rows = (self.folder / "s_truth.csv").read_text().splitlines()
+        rows[len(rows) // 2] += ",1"
+        self.write("bad.csv", "\n".join(rows))
+        (self.folder / "many").mkdir()
+        self.write("many/study.json", "old")
+        for arguments, message in ((("bad.csv", *self.INPUT[1:]), "fields where the header names"), (("none.csv", *self.INPUT[1:]), "none.csv: cannot be opened"), (("--pt-edges", "2,1", *self.INPUT), "--pt-edges")):
+            with self.subTest(arguments=arguments):
+                result = self.run_on_ranks(3, *arguments, "many")
+                self.assertEqual(result.returncode, 2, result.stderr)
+                self.assertEqual(result.stderr.count(message), 1, result.stderr)
+                self.assertEqual((self.folder / "many" / "study.json").read_text(), "old")
+
+    def test_a_rank_that_dies_ends_the_job_and_leaves_the_old_study(self):
+        (self.folder / "many").mkdir()
+        self.write("many/study.json", "old")
+        for dead in (0, 2):
+            with self.subTest(rank=dead), subprocess.Popen(self.on_ranks(3, *self.INPUT, "many"), cwd=self.folder, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True) as job:
+                ranks = {}
+
+                def started():
+                    ranks.update({rank_of(p): p for p in children_of(job.pid)})
+                    return dead in ranks
+
+                programs.wait_for(started, "a rank")
+                os.kill(ranks[dead], signal.SIGKILL)
+                errors = job.communicate(timeout=60)[1]
+                self.assertNotEqual(job.returncode, 0)
+                self.assertIn(f"process rank {dead}", errors)
+                self.assertEqual((self.folder / "many" / "study.json").read_text(), "old")
 
 
 if __name__ == "__main__":

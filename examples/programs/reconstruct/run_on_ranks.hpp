@@ -17,9 +17,9 @@
 #include <fmt/format.h>
 #include <mpi.h>
 
+#include "ranks.hpp"
 #include "reconstruct/block_message.hpp"
 #include "reconstruct/progress.hpp"
-#include "reconstruct/ranks.hpp"
 #include "reconstruct/track_block.hpp"
 #include "reconstruct/track_tables.hpp"
 #include "run_program.hpp"
@@ -198,8 +198,8 @@ void lead(workers& others, const ranks& all, block_reader& reader, const Chain& 
 
 }  // namespace on_ranks
 #else
+#include "ranks.hpp"
 #include "reconstruct/progress.hpp"
-#include "reconstruct/ranks.hpp"
 #include "reconstruct/track_block.hpp"
 #include "reconstruct/track_tables.hpp"
 

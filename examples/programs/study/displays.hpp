@@ -59,6 +59,23 @@ class displays {
     return out;
   }
 
+  /// The best of each kind, for another process.
+  [[nodiscard]] json contents() const {
+    json out = json::array();
+    for (const chosen& c : best_) out.push_back({c.rank, c.drawn});
+    return out;
+  }
+  /// Takes over what is better in what `contents` gave of other events; of equals the one of the earlier event, as if they had passed by in order.
+  void add_contents(json others) {
+    for (std::size_t k = 0; k < kinds; ++k) {
+      chosen& mine = best_[k];
+      json& drawn = others.at(k).at(1);
+      if (drawn.is_null()) continue;
+      const double rank = others.at(k).at(0).get<double>();
+      if (mine.drawn.is_null() || rank > mine.rank || (rank == mine.rank && drawn.at("event").get<long>() < mine.drawn.at("event").get<long>())) mine = {rank, std::move(drawn)};
+    }
+  }
+
  private:
   enum kind : std::size_t { typical, straightest, most_tracks, worst_fit, missed, kinds };
   static constexpr std::array<const char*, kinds> titles{"a typical track", "a track of low transverse momentum", "the most tracks in one event",

@@ -15,7 +15,7 @@
 
 #include "study/tracker_results.hpp"
 
-/// The results of a study as JSON. A number that does not exist (the median of nothing) is null.
+/// The results of a study as JSON. A number that does not exist (the median of nothing) is null. Sums run over sorted values: the order of events changes no bit.
 namespace scifi::study_program {
 
 using json = nlohmann::ordered_json;
@@ -81,8 +81,8 @@ template <class Cell, class Show>
 [[nodiscard]] inline json to_json(const study::momentum_samples& s) {
   const study::summary residual = study::summarise(s.residual);
   json out = to_json(s.residual);
-  out["stated"] = mixture_spread(s.stated.values());
-  out["bound"] = mixture_spread(s.bound.values());
+  out["stated"] = mixture_spread(s.stated.sorted());
+  out["bound"] = mixture_spread(s.bound.sorted());
   out["median_over_spread"] = residual.median / residual.spread;
   out["shifted"] = study::shift_rule{}(residual);
   out["shifted_by_chance"] = study::shift_rule{}.by_chance(residual);
@@ -94,7 +94,7 @@ template <class Cell, class Show>
   for (std::size_t i = 0; i < study::residual_quantity::dimension; ++i) {
     const auto c = static_cast<study::residual_quantity::component>(i);
     if (r.residual(c).values.size() == 0) continue;
-    json one = {{"unit", study::residual_quantity::units[i]}, {"bound", mixture_spread(r.bound(c).values())}};
+    json one = {{"unit", study::residual_quantity::units[i]}, {"bound", mixture_spread(r.bound(c).sorted())}};
     one.update(to_json(r.residual(c)));
     out[std::string(study::residual_quantity::names[i])] = std::move(one);
   }

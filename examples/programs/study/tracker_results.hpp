@@ -6,6 +6,7 @@
 #include <scifi/event/event.hpp>
 #include <scifi/geometry/tracker.hpp>
 #include <scifi/study/channel_sums.hpp>
+#include <scifi/study/contents.hpp>
 #include <scifi/study/occupancy.hpp>
 #include <scifi/study/track_study.hpp>
 
@@ -20,10 +21,15 @@ struct tracker_results {
   tracker_results(const tracker& where, const study::study_options& options) : tracks(where, options), sums(where) {}
 
   tracker_results& operator+=(const tracker_results& other) {
-    tracks += other.tracks;
-    seen += other.seen;
-    sums += other.sums;
+    each(study::merge, other);
     return *this;
+  }
+  /// Calls visit(part), or visit(part, the same one of `other`), for everything that is merged.
+  template <class Visit, class... Others>
+  void each(const Visit& visit, const Others&... other) {
+    visit(tracks, other.tracks...);
+    visit(seen, other.seen...);
+    visit(sums, other.sums...);
   }
 };
 

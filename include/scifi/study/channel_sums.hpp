@@ -11,6 +11,7 @@
 
 #include <scifi/event/cluster.hpp>
 #include <scifi/geometry/tracker.hpp>
+#include <scifi/study/contents.hpp>
 #include <scifi/study/distribution.hpp>
 
 namespace scifi::study {
@@ -54,8 +55,14 @@ class channel_sums {
     }
   }
   channel_sums& operator+=(const channel_sums& other) {
-    for (std::size_t i = 0; i < stations_.size() && i < other.stations_.size(); ++i) stations_[i].difference += other.stations_[i].difference;
+    each(merge, other);
     return *this;
+  }
+  /// Calls visit(part), or visit(part, the same one of `other`), for everything that is merged.
+  template <class Visit, class... Others>
+  void each(const Visit& visit, const Others&... other) {
+    const std::size_t common = std::min({stations_.size(), other.stations_.size()...});
+    for (std::size_t i = 0; i < common; ++i) visit(stations_[i].difference, other.stations_[i].difference...);
   }
 
   [[nodiscard]] std::span<const station_channel_sums> stations() const { return stations_; }

@@ -10,6 +10,7 @@
 #include <boost/histogram/make_histogram.hpp>
 #include <boost/histogram/storage_adaptor.hpp>
 
+#include <scifi/study/contents.hpp>
 #include <scifi/study/sample.hpp>
 
 namespace scifi::study {
@@ -36,9 +37,14 @@ struct distribution {
   }
   /// Throws std::invalid_argument when the bins differ.
   distribution& operator+=(const distribution& other) {
-    histogram += other.histogram;
-    values += other.values;
+    each(merge, other);
     return *this;
+  }
+  /// Calls visit(part), or visit(part, the same one of `other`), for everything that is merged.
+  template <class Visit, class... Others>
+  void each(const Visit& visit, const Others&... other) {
+    visit(histogram, other.histogram...);
+    visit(values, other.values...);
   }
 };
 

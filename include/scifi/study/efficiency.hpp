@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include <scifi/study/binomial_interval.hpp>
+#include <scifi/study/contents.hpp>
 #include <scifi/study/momentum_bins.hpp>
 #include <scifi/study/true_track.hpp>
 
@@ -19,9 +20,14 @@ struct found_share {
     found += was_found ? 1 : 0;
   }
   found_share& operator+=(const found_share& other) {
-    expected += other.expected;
-    found += other.found;
+    each(merge, other);
     return *this;
+  }
+  /// Calls visit(part), or visit(part, the same one of `other`), for everything that is merged.
+  template <class Visit, class... Others>
+  void each(const Visit& visit, const Others&... other) {
+    visit(expected, other.expected...);
+    visit(found, other.found...);
   }
   /// NaN where nothing was expected.
   [[nodiscard]] double value() const { return static_cast<double>(found) / static_cast<double>(expected); }
@@ -41,9 +47,14 @@ class efficiency {
     grid_(particle.pt(), std::abs(particle.reference()->momentum.z()), boost::histogram::sample(found));
   }
   efficiency& operator+=(const efficiency& other) {
-    all_ += other.all_;
-    grid_ += other.grid_;
+    each(merge, other);
     return *this;
+  }
+  /// Calls visit(part), or visit(part, the same one of `other`), for everything that is merged.
+  template <class Visit, class... Others>
+  void each(const Visit& visit, const Others&... other) {
+    visit(all_, other.all_...);
+    visit(grid_, other.grid_...);
   }
 
   [[nodiscard]] const found_share& all() const { return all_; }

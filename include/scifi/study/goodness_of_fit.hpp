@@ -2,6 +2,7 @@
 #pragma once
 
 #include <scifi/event/track.hpp>
+#include <scifi/study/contents.hpp>
 #include <scifi/study/distribution.hpp>
 #include <scifi/study/flatness.hpp>
 
@@ -19,9 +20,14 @@ struct goodness_of_fit {
     p_value.add(t.p_value);
   }
   goodness_of_fit& operator+=(const goodness_of_fit& other) {
-    chi2_per_ndf += other.chi2_per_ndf;
-    p_value += other.p_value;
+    each(merge, other);
     return *this;
+  }
+  /// Calls visit(part), or visit(part, the same one of `other`), for everything that is merged.
+  template <class Visit, class... Others>
+  void each(const Visit& visit, const Others&... other) {
+    visit(chi2_per_ndf, other.chi2_per_ndf...);
+    visit(p_value, other.p_value...);
   }
   [[nodiscard]] flatness of_p_value() const { return flatness_of(p_value.values); }
 };

@@ -6,6 +6,7 @@
 
 #include <scifi/event/track.hpp>
 #include <scifi/information/track_bound.hpp>
+#include <scifi/study/contents.hpp>
 #include <scifi/study/momentum_bins.hpp>
 #include <scifi/study/sample.hpp>
 #include <scifi/study/state_residuals.hpp>
@@ -25,10 +26,15 @@ struct momentum_samples {
   sample residual, stated, bound;
 
   momentum_samples& operator+=(const momentum_samples& other) {
-    residual += other.residual;
-    stated += other.stated;
-    bound += other.bound;
+    each(merge, other);
     return *this;
+  }
+  /// Calls visit(part), or visit(part, the same one of `other`), for everything that is merged.
+  template <class Visit, class... Others>
+  void each(const Visit& visit, const Others&... other) {
+    visit(residual, other.residual...);
+    visit(stated, other.stated...);
+    visit(bound, other.bound...);
   }
 };
 
@@ -46,9 +52,14 @@ struct momentum_cell {
     add(pz, residual.pz, stated.pz, bound.pz);
   }
   momentum_cell& operator+=(const momentum_cell& other) {
-    pt += other.pt;
-    pz += other.pz;
+    each(merge, other);
     return *this;
+  }
+  /// Calls visit(part), or visit(part, the same one of `other`), for everything that is merged.
+  template <class Visit, class... Others>
+  void each(const Visit& visit, const Others&... other) {
+    visit(pt, other.pt...);
+    visit(pz, other.pz...);
   }
 };
 
@@ -89,9 +100,14 @@ class momentum_resolution {
     for (auto* cells : {&fine_, &wide_}) (*cells)(pt, std::abs(truth[m::pz]), boost::histogram::sample(residual, stated, bound));
   }
   momentum_resolution& operator+=(const momentum_resolution& other) {
-    fine_ += other.fine_;
-    wide_ += other.wide_;
+    each(merge, other);
     return *this;
+  }
+  /// Calls visit(part), or visit(part, the same one of `other`), for everything that is merged.
+  template <class Visit, class... Others>
+  void each(const Visit& visit, const Others&... other) {
+    visit(fine_, other.fine_...);
+    visit(wide_, other.wide_...);
   }
 
   [[nodiscard]] const momentum_grid<momentum_cell>& fine() const { return fine_; }

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include <scifi/event/event.hpp>
+#include <scifi/study/contents.hpp>
 #include <scifi/study/distribution.hpp>
 
 namespace scifi::study {
@@ -35,14 +36,19 @@ struct occupancy {
     }
   }
   occupancy& operator+=(const occupancy& other) {
-    digits += other.digits;
-    clusters += other.clusters;
-    space_points += other.space_points;
-    triplets += other.triplets;
-    digit_light += other.digit_light;
-    cluster_light += other.cluster_light;
-    cluster_size += other.cluster_size;
+    each(merge, other);
     return *this;
+  }
+  /// Calls visit(part), or visit(part, the same one of `other`), for everything that is merged.
+  template <class Visit, class... Others>
+  void each(const Visit& visit, const Others&... other) {
+    visit(digits, other.digits...);
+    visit(clusters, other.clusters...);
+    visit(space_points, other.space_points...);
+    visit(triplets, other.triplets...);
+    visit(digit_light, other.digit_light...);
+    visit(cluster_light, other.cluster_light...);
+    visit(cluster_size, other.cluster_size...);
   }
 };
 

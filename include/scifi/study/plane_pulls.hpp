@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -12,6 +13,7 @@
 #include <scifi/event/track.hpp>
 #include <scifi/geometry/surface.hpp>
 #include <scifi/geometry/tracker.hpp>
+#include <scifi/study/contents.hpp>
 #include <scifi/study/distribution.hpp>
 #include <scifi/study/true_state.hpp>
 #include <scifi/study/true_track.hpp>
@@ -29,10 +31,15 @@ struct pulls_at_plane {
   distribution residual{100, -4.0, 4.0, "measured - fitted without it [mm]"};
 
   pulls_at_plane& operator+=(const pulls_at_plane& other) {
-    for (std::size_t i = 0; i < state.size(); ++i) state[i] += other.state[i];
-    measurement += other.measurement;
-    residual += other.residual;
+    each(merge, other);
     return *this;
+  }
+  /// Calls visit(part), or visit(part, the same one of `other`), for everything that is merged.
+  template <class Visit, class... Others>
+  void each(const Visit& visit, const Others&... other) {
+    for (std::size_t i = 0; i < state.size(); ++i) visit(state[i], other.state[i]...);
+    visit(measurement, other.measurement...);
+    visit(residual, other.residual...);
   }
 
  private:
@@ -72,8 +79,14 @@ class plane_pulls {
     }
   }
   plane_pulls& operator+=(const plane_pulls& other) {
-    for (std::size_t i = 0; i < planes_.size() && i < other.planes_.size(); ++i) planes_[i] += other.planes_[i];
+    each(merge, other);
     return *this;
+  }
+  /// Calls visit(part), or visit(part, the same one of `other`), for everything that is merged.
+  template <class Visit, class... Others>
+  void each(const Visit& visit, const Others&... other) {
+    const std::size_t common = std::min({planes_.size(), other.planes_.size()...});
+    for (std::size_t i = 0; i < common; ++i) visit(planes_[i], other.planes_[i]...);
   }
 
   [[nodiscard]] std::span<const pulls_at_plane> planes() const { return planes_; }

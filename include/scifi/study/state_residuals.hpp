@@ -11,6 +11,7 @@
 
 #include <scifi/event/track.hpp>
 #include <scifi/information/track_bound.hpp>
+#include <scifi/study/contents.hpp>
 #include <scifi/study/distribution.hpp>
 #include <scifi/study/efficiency.hpp>
 #include <scifi/study/sample.hpp>
@@ -83,11 +84,16 @@ class state_residuals {
     if (!line) charge_(t.charge == particle.charge);
   }
   state_residuals& operator+=(const state_residuals& other) {
-    for (std::size_t i = 0; i < residual_.size(); ++i) residual_[i] += other.residual_[i];
-    for (std::size_t i = 0; i < bound_.size(); ++i) bound_[i] += other.bound_[i];
-    for (std::size_t i = 0; i < pull_.size(); ++i) pull_[i] += other.pull_[i];
-    charge_ += other.charge_;
+    each(merge, other);
     return *this;
+  }
+  /// Calls visit(part), or visit(part, the same one of `other`), for everything that is merged.
+  template <class Visit, class... Others>
+  void each(const Visit& visit, const Others&... other) {
+    for (std::size_t i = 0; i < residual_.size(); ++i) visit(residual_[i], other.residual_[i]...);
+    for (std::size_t i = 0; i < bound_.size(); ++i) visit(bound_[i], other.bound_[i]...);
+    for (std::size_t i = 0; i < pull_.size(); ++i) visit(pull_[i], other.pull_[i]...);
+    visit(charge_, other.charge_...);
   }
 
   [[nodiscard]] const distribution& residual(residual_quantity::component c) const { return residual_[c]; }

@@ -12,6 +12,7 @@
 #include <scifi/geometry/tracker.hpp>
 #include <scifi/information/track_bound.hpp>
 #include <scifi/material/particle.hpp>
+#include <scifi/study/contents.hpp>
 #include <scifi/study/efficiency.hpp>
 #include <scifi/study/goodness_of_fit.hpp>
 #include <scifi/study/momentum_bins.hpp>
@@ -86,17 +87,22 @@ class track_study {
   }
 
   track_study& operator+=(const track_study& other) {
-    found += other.found;
-    tracks += other.tracks;
-    failed += other.failed;
-    ghosts += other.ghosts;
-    duplicates += other.duplicates;
-    with_tracks += other.with_tracks;
-    residuals += other.residuals;
-    momentum += other.momentum;
-    goodness += other.goodness;
-    planes += other.planes;
+    each(merge, other);
     return *this;
+  }
+  /// Calls visit(part), or visit(part, the same one of `other`), for everything that is merged.
+  template <class Visit, class... Others>
+  void each(const Visit& visit, const Others&... other) {
+    visit(found, other.found...);
+    visit(tracks, other.tracks...);
+    visit(failed, other.failed...);
+    visit(ghosts, other.ghosts...);
+    visit(duplicates, other.duplicates...);
+    visit(with_tracks, other.with_tracks...);
+    visit(residuals, other.residuals...);
+    visit(momentum, other.momentum...);
+    visit(goodness, other.goodness...);
+    visit(planes, other.planes...);
   }
 
   [[nodiscard]] const tracker& where() const { return where_; }

@@ -13,6 +13,8 @@
 #include <mpi.h>
 #include <unistd.h>
 
+#include "interruption.hpp"
+
 /// The processes of a job that mpirun or srun started, from the first line of main to the last; a process that was started otherwise is alone, and MPI is
 /// not touched. Rank 0 leads: it reads, writes and speaks to the user; the others are silent unless they have to say why they cannot work.
 class ranks {
@@ -42,13 +44,14 @@ class ranks {
   [[nodiscard]] bool leads() const { return rank_ == 0; }
   void check_build() const {}
 
-  /// Prepares on every rank; throws on all where it threw on one, and one of them says why.
-  template <class Prepare>
-  void together(const Prepare& prepare) const {
+  /// Does what every rank does; throws on all where it threw on one, and one of them says why. What a signal stopped throws at once.
+  template <class Work>
+  void together(const Work& work) const {
     std::exception_ptr mine;
     try {
-      prepare();
+      work();
     } catch (...) {
+      if (interruption::received() != 0) throw;
       mine = std::current_exception();
     }
     int first = mine ? rank_ : size_;
@@ -56,7 +59,7 @@ class ranks {
     if (first == size_) return;
     if (first == rank_) speak();
     if (mine) std::rethrow_exception(mine);
-    throw std::runtime_error("rank " + std::to_string(first) + " could not begin");
+    throw std::runtime_error("rank " + std::to_string(first) + " could not go on");
   }
 
   /// From now on this rank's messages are seen.
@@ -79,6 +82,7 @@ class ranks {
  public:
   ranks(int&, char**&) {}
   [[nodiscard]] int size() const { return 1; }
+  [[nodiscard]] int rank() const { return 0; }
   [[nodiscard]] bool leads() const { return true; }
   static void abort(int) {}
   /// Throws std::invalid_argument where mpirun started several processes, which would all do the same.
@@ -87,9 +91,9 @@ class ranks {
       if (const char* const given = std::getenv(size); given != nullptr && std::atoi(given) > 1)
         throw std::invalid_argument("started by mpirun, but built without MPI: configure with -D SCIFI_MPI=ON");
   }
-  template <class Prepare>
-  void together(const Prepare& prepare) const {
-    prepare();
+  template <class Work>
+  void together(const Work& work) const {
+    work();
   }
 };
 #endif
