@@ -67,6 +67,7 @@ class combination_search {
           if (!t.bent()) follow(t.pass(0.0, 0.0));
           else
             for (const curvature_hypothesis& h : hypotheses(t.arc(a), t.arc(b), t.arc(c))) {
+              --t.looks_left;
               t.chosen = {a, b, c};
               if (h.iterations > 1 || goes_on(h.curvature)) follow(t.refine(h.curvature, h.iterations));
             }

@@ -68,7 +68,7 @@ class sure_search {
         const double left = total_ - of_middle - t.chi2(a);
         if (left < 0.0 || t.too_steep(t.arc(a), middle)) continue;
         const auto hits = scan(middle.position - t.arc(a).position, variance + t.arc(a).variance * square(ratio), left);
-        t.looks_left -= scan.rounds();
+        t.looks_left -= scan.rounds() + static_cast<long>(hits.size());
         for (const chord_scan::hit& h : hits) {
           t.chosen = {a, b, h.point};
           if (t.dim_points() <= o.max_dim_points) extend(h.curvature, left - t.chi2(h.point) - h.chi2);
