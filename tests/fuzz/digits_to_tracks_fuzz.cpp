@@ -116,7 +116,7 @@ inline const registered digits_to_tracks_target("digits_to_tracks", [](std::stri
   const unsigned first = from.byte();
   const chain& reconstruct = chains[first % chains.size()];
   // Most inputs are small events, of which hundreds are looked at in the time of one that lights everything.
-  constexpr std::size_t small = 150, large = 20000;
+  constexpr std::size_t small = 60, large = 20000;
   e.clear();
   from.append_to(e.digits, first < chains.size() ? large : small);
   reconstruct(e, work);
