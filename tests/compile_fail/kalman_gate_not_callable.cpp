@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MPL-2.0
-// expect: the gate cannot be called as gate(chi2, measurement_dimension)
+// expect: the gate has no const operator()(chi2, measurement_dimension)
 #include <scifi/kalman.hpp>
 
 struct constant_velocity {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MPL-2.0
-// expect: the measurement has no covariance()
+// expect: the measurement has no const covariance()
 #include <scifi/kalman.hpp>
 
 struct constant_velocity {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MPL-2.0
-// expect: the measurement has neither projection() nor project(x)
+// expect: the measurement has neither a const projection() nor a const project(x)
 #include <scifi/kalman.hpp>
 
 struct constant_velocity {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MPL-2.0
-// expect: the measurement has no value()
+// expect: the measurement has no const value()
 #include <scifi/kalman.hpp>
 
 struct constant_velocity {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MPL-2.0
-// expect: the process noise has no covariance(step), covariance(start, step) or covariance(start, step, moved)
+// expect: the process noise has no const covariance(step), covariance(start, step) or covariance(start, step, moved)
 #include <scifi/kalman.hpp>
 
 struct constant_velocity {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MPL-2.0
-// expect: predict and update need an estimate
+// expect: predict, update and run need an estimate
 #include <scifi/kalman.hpp>
 
 struct constant_velocity {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MPL-2.0
-// expect: the propagator has neither transition(step) nor propagate(x, step)
+// expect: the propagator has neither a const transition(step) nor a const propagate(x, step)
 #include <scifi/kalman.hpp>
 
 struct constant_velocity {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MPL-2.0
-// expect: the update policy cannot be called with an estimate and a measurement
+// expect: the update policy has no const operator()(estimate, measurement)
 #include <scifi/kalman.hpp>
 
 struct constant_velocity {

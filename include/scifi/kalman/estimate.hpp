@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <limits>
+#include <type_traits>
 
 #include <scifi/core/linalg.hpp>
 #include <scifi/core/scalar.hpp>
@@ -14,6 +15,7 @@ namespace scifi::kalman {
 template <class Scalar, int N>
 struct estimate {
   static_assert(N > 0, "scifi: an estimate needs a fixed-size Eigen mean and covariance; a dynamic size is not accepted");
+  static_assert(!std::is_integral_v<Scalar>, "scifi: an estimate cannot be of whole numbers; write 20.0 for 20");
   using scalar = Scalar;
   static constexpr int dimension = N;
 
@@ -54,9 +56,17 @@ template <class Mean, class Sigmas>
 
 /// A one-dimensional estimate from its mean and standard deviation.
 template <scalar Scalar>
-  requires(!detail::eigen_like<Scalar>)
+  requires(!detail::eigen_like<Scalar> && !std::is_integral_v<Scalar>)
 [[nodiscard]] estimate<Scalar, 1> uncorrelated(const Scalar& mean, const Scalar& sigma) {
   return {vector<Scalar, 1>::Constant(mean), matrix<Scalar, 1, 1>::Constant(square<Scalar>(sigma))};
+}
+
+/// The same from two plain numbers of different types, of which a whole one counts as double: uncorrelated(20, 0.5).
+template <class Mean, class Sigma>
+  requires(std::is_arithmetic_v<Mean> && std::is_arithmetic_v<Sigma> && (!std::is_same_v<Mean, Sigma> || std::is_integral_v<Mean>))
+[[nodiscard]] auto uncorrelated(Mean mean, Sigma sigma) {
+  using real = std::conditional_t<std::is_integral_v<Mean> || std::is_integral_v<Sigma>, double, std::common_type_t<Mean, Sigma>>;
+  return uncorrelated(static_cast<real>(mean), static_cast<real>(sigma));
 }
 
 /// Standard deviation from a variance; NaN where the variance is negative.

@@ -79,14 +79,14 @@ class filter {
   /// Filters over the sites in their order and leaves a node for each in `out` (contiguous, at least as many). Stops at the first failure.
   template <class Prior, class Sites, class Nodes>
   [[nodiscard]] auto run(const Prior& start, const Sites& sites, Nodes&& out) const {
-    return detail::run(*this, start, sites, out, detail::no_references{});
+    return detail::run_from(*this, start, sites, out, detail::no_references{});
   }
 
   /// The same, linearised along reference states (contiguous range of vectors): references[k] is the state at the start of step k, that
   /// is at site k-1; measurement k is taken at references[k+1], or, where that is not given, at the end of the step from references[k].
   template <class Prior, class Sites, class Nodes, class References>
   [[nodiscard]] auto run(const Prior& start, const Sites& sites, Nodes&& out, const References& references) const {
-    return detail::run(*this, start, sites, out, references);
+    return detail::run_from(*this, start, sites, out, references);
   }
 
   /// `detail::run` has the filter write into the nodes.

@@ -31,7 +31,8 @@ struct node {
   /// 0 where nothing was measured.
   int measurement_dimension = 0;
   mask<Scalar> outlier{};
-  kalman::status status{};
+  /// Not ok until a run has filled the node.
+  kalman::status status{step_kind::predict, reason::not_reached};
 };
 
 /// A number of degrees of freedom: an int, or a number a lane where the scalar is a pack.

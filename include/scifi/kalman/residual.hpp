@@ -24,6 +24,13 @@ template <class Scalar, int M, int MaxM>
   return value / sigma_of_variance<Scalar>(r.covariance(component, component));
 }
 
+/// The pull of a measurement against what was known before it, as an update saw it: one component of the residual over the root of its variance.
+template <class Estimate, int M, int MaxM>
+[[nodiscard]] typename Estimate::scalar pull(const basic_updated<Estimate, M, MaxM>& u, int component = 0) {
+  using Scalar = typename Estimate::scalar;
+  return Scalar(u.residual(component)) / sigma_of_variance<Scalar>(u.residual_covariance(component, component));
+}
+
 namespace detail {
 
 /// Replaces `b` by C^-1 b, or by L^-1 b with C = L L' where `half`; NaN where C is not positive definite. Any size, in place.

@@ -13,6 +13,7 @@
 #include <scifi/kalman/node.hpp>
 #include <scifi/kalman/node_view.hpp>
 #include <scifi/kalman/product.hpp>
+#include <scifi/kalman/sentences.hpp>
 
 namespace scifi::kalman::detail {
 
@@ -79,16 +80,13 @@ template <class Filter, class Prior, class Sites, class Nodes, class References>
   run_result<Scalar> result;
   if constexpr (run_fits<Sites, Nodes, Scalar, estimate_type::dimension>::value) {
     const std::span nodes(out);
-    result.status = status_in(start);
-    if (!result.status.ok()) {
-      result.failed_at = 0;
-      return result;
-    }
-    const auto fail = [&result](status s) {
+    const auto fail = [&](status s) {
       result.status = s;
       result.failed_at = result.reached;
+      if (result.reached < nodes.size()) nodes[result.reached].status = s;
       return result;
     };
+    if (!status_in(start).ok()) return fail(status_in(start));
     estimate_type after_update = estimate_in(start);
     const estimate_type* current = &after_update;
     // A flight that does not hang on what is measured goes one step ahead: it and the filter do not wait for each other.
@@ -153,18 +151,26 @@ template <class Filter, class Prior, class Sites, class Nodes, class References>
     }
     // Steps look at variances only. What else is not finite, from a noise say, stays in the covariance: one look at the end sees it.
     if (result.reached > 0) {
-      auto& last = nodes[result.reached - 1];
+      const auto& last = nodes[result.reached - 1];
       Scalar sum(0.0);
       for (int j = 0; j < estimate_type::dimension; ++j)
         for (int i = 0; i < estimate_type::dimension; ++i) sum += last.filtered.covariance(i, j);
       if (!any_of(is_finite<Scalar>(sum))) {
-        last.status = {step_kind::update, reason::not_finite};
         --result.reached;
-        return fail(last.status);
+        return fail({step_kind::update, reason::not_finite});
       }
     }
+    // Nodes behind the last site may hold what an earlier run left: a smoother stops here.
+    if (result.reached < nodes.size()) nodes[result.reached].status = {step_kind::predict, reason::not_reached};
   }
   return result;
+}
+
+/// The same from whatever the user gave as the start.
+template <class Filter, class Prior, class Sites, class Nodes, class References>
+[[nodiscard]] auto run_from(const Filter& f, const Prior& start, const Sites& sites, Nodes& out, const References& references) {
+  if constexpr (prior_fits<Prior>::value) return run(f, start, sites, out, references);
+  else return run_result<double>{};
 }
 
 }  // namespace scifi::kalman::detail

@@ -9,7 +9,7 @@ namespace scifi::kalman::detail {
 template <class Prior>
 struct prior_fits {
   static constexpr bool value = prior<Prior>;
-  static_assert(value, "scifi: predict and update need an estimate, or the result of a predict or an update, as their first argument");
+  static_assert(value, "scifi: predict, update and run need an estimate, or the result of a predict or an update, as their first argument");
 };
 
 template <class P, class Scalar, int N, class Step>
@@ -17,7 +17,7 @@ struct propagator_fits {
   static constexpr bool value = propagator<P, Scalar, N, Step>;
   static constexpr bool general = has_propagate<P, Scalar, N, Step>;
   static constexpr bool linear = !general && has_transition<P, Step>;
-  static_assert(value || general || linear, "scifi: the propagator has neither transition(step) nor propagate(x, step) for this state and step");
+  static_assert(value || general || linear, "scifi: the propagator has neither a const transition(step) nor a const propagate(x, step) for this state and step");
   static_assert(value || !linear, "scifi: the propagator's transition(step) must be a fixed-size N x N matrix, where N is the size of the state");
   static constexpr bool members = [] {
     if constexpr (general) return requires(const P& p, const vector<Scalar, N>& x, const Step& s) { p.propagate(x, s).state; p.propagate(x, s).jacobian; };
@@ -31,7 +31,7 @@ template <class Q, class Scalar, int N, class Step>
 struct noise_fits {
   static constexpr bool value = process_noise<Q, Scalar, N, Step>;
   static constexpr bool callable = has_noise_covariance<Q, Scalar, N, Step>;
-  static_assert(value || callable, "scifi: the process noise has no covariance(step), covariance(start, step) or covariance(start, step, moved)");
+  static_assert(value || callable, "scifi: the process noise has no const covariance(step), covariance(start, step) or covariance(start, step, moved)");
   static_assert(value || !callable, "scifi: the process noise's covariance must be a fixed-size N x N matrix, where N is the size of the state");
 };
 
@@ -40,14 +40,14 @@ struct measurement_fits {
   static constexpr bool value = measurement<Z, Scalar, N>;
   static constexpr int M = max_measurement_dimension<Z>;
   static constexpr bool measured = has_value<Z>;
-  static_assert(value || measured, "scifi: the measurement has no value()");
+  static_assert(value || measured, "scifi: the measurement has no const value()");
   static constexpr bool column = [] {
     if constexpr (measured) return M > 0 && cols_of<decltype(std::declval<const Z&>().value())>() == 1;
     else return true;
   }();
   static_assert(value || column, "scifi: the measurement's value() must be a number or a fixed-size column vector");
   static constexpr bool known = has_covariance<Z>;
-  static_assert(value || !measured || known, "scifi: the measurement has no covariance()");
+  static_assert(value || !measured || known, "scifi: the measurement has no const covariance()");
   static constexpr bool square = [] {
     if constexpr (measured && known && column) return shaped<decltype(std::declval<const Z&>().covariance()), M, M>;
     else return true;
@@ -55,7 +55,7 @@ struct measurement_fits {
   static_assert(value || square, "scifi: the measurement's covariance() must be M x M, where M is the size of its value()");
   static constexpr bool linear = has_projection<Z>;
   static constexpr bool general = has_project<Z, Scalar, N>;
-  static_assert(value || linear || general, "scifi: the measurement has neither projection() nor project(x) for this state");
+  static_assert(value || linear || general, "scifi: the measurement has neither a const projection() nor a const project(x) for this state");
   static constexpr bool fits_state = [] {
     if constexpr (linear && measured && column) return shaped<decltype(std::declval<const Z&>().projection()), M, N>;
     else return true;
@@ -70,7 +70,7 @@ struct update_fits {
   static constexpr bool value = update_policy<U, Estimate, Z>;
   static constexpr bool callable = requires(const U& u, const Estimate& e, const Z& z) { u(e, z); };
   static constexpr bool is_factored = !requires(const Estimate& e) { e.covariance(0, 0); };
-  static_assert(value || callable || is_factored, "scifi: the update policy cannot be called with an estimate and a measurement");
+  static_assert(value || callable || is_factored, "scifi: the update policy has no const operator()(estimate, measurement)");
   static_assert(value || callable || !is_factored, "scifi: the update policy does not take a factored estimate; square_root does");
   static_assert(value || !callable, "scifi: the update policy must return updated<Scalar, N, M>");
 };
@@ -78,7 +78,7 @@ struct update_fits {
 template <class G, class Scalar>
 struct gate_fits {
   static constexpr bool value = gate<G, Scalar>;
-  static_assert(value, "scifi: the gate cannot be called as gate(chi2, measurement_dimension) to say true or false");
+  static_assert(value, "scifi: the gate has no const operator()(chi2, measurement_dimension) that says true or false");
 };
 
 template <class A, class B>

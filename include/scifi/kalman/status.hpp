@@ -12,7 +12,7 @@ namespace scifi::kalman {
 enum class step_kind { predict, update, smooth };
 
 /// Why a step failed.
-enum class reason { none, not_finite, not_positive_definite, singular_innovation, not_converged, out_of_space, missing_reference };
+enum class reason { none, not_finite, not_positive_definite, singular_innovation, not_converged, out_of_space, missing_reference, not_reached };
 
 /// Outcome of a step: which kind it was, and why it failed.
 /// With one track per SIMD lane a step fails when no lane is left; the chi2 of a lane that failed is NaN.
@@ -45,6 +45,7 @@ struct status {
     case reason::not_converged: return "not_converged";
     case reason::out_of_space: return "out_of_space";
     case reason::missing_reference: return "missing_reference";
+    case reason::not_reached: return "not_reached";
   }
   return "unknown reason";
 }
@@ -59,6 +60,7 @@ struct status {
     case reason::not_converged: return "the iteration did not converge";
     case reason::out_of_space: return "there are more sites than nodes to write to";
     case reason::missing_reference: return "there are fewer reference states than sites";
+    case reason::not_reached: return "no run has reached this node";
   }
   return "unknown reason";
 }

@@ -29,4 +29,7 @@ TEST_CASE("uncorrelated components are given by their standard deviations", "[ka
   const auto one = kalman::uncorrelated(20.0, 2.0);
   CHECK(one.mean(0) == 20.0);
   CHECK(one.covariance(0, 0) == 4.0);
+  const auto whole = kalman::uncorrelated(20, 2), mixed = kalman::uncorrelated(20, 2.0), narrow = kalman::uncorrelated(20.0, 2.0F);
+  STATIC_REQUIRE(std::is_same_v<decltype(whole), const kalman::estimate<double, 1>>);
+  for (const auto& e1 : {whole, mixed, narrow}) CHECK((e1.mean == one.mean && e1.covariance == one.covariance));
 }

@@ -11,7 +11,7 @@ TEST_CASE("a node starts without a measurement and keeps everything inside itsel
   kalman::node<double, 5, 3> n;
   CHECK(n.measurement_dimension == 0);
   CHECK(n.residual.size() == 0);
-  CHECK(n.status.ok());
+  CHECK(n.status.why == kalman::reason::not_reached);
   CHECK_FALSE(n.outlier);
   n.residual.resize(3);
   n.projection.resize(3, 5);

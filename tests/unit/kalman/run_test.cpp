@@ -4,9 +4,11 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <span>
 #include <variant>
 #include <vector>
 
+#include <scifi/kalman/bryson_frazier.hpp>
 #include <scifi/kalman/filter.hpp>
 #include <scifi/kalman/node_residual.hpp>
 #include <scifi/kalman/run.hpp>
@@ -120,6 +122,23 @@ TEST_CASE("a run that fails keeps what it had and names site, step and reason", 
   const std::vector<Eigen::Vector2d> references(1, start.mean);
   CHECK(f.run(start, bad_step, nodes, references).status.why == kalman::reason::missing_reference);
   CHECK(f.run(f.predict(start, nan), bad_step, nodes).failed_at == 0);
+  CHECK(nodes[0].status.why == kalman::reason::not_finite);
+}
+
+TEST_CASE("what an earlier, longer run left in the nodes is not smoothed", "[kalman]") {
+  const kalman::filter f{models::constant_velocity{}, models::white_acceleration{0.1}};
+  const std::vector<site> sites{{1.0, {1.0, 0.1}}, {1.0, {2.0, 0.1}}, {1.0, {3.0, 0.1}}, {1.0, {4.0, 0.1}}, {1.0, {5.0, 0.1}}};
+  std::vector<node> nodes(6);
+  constexpr kalman::status not_reached{kalman::step_kind::predict, kalman::reason::not_reached};
+  REQUIRE(f.run(start, sites, nodes).reached == 5);
+  CHECK(kalman::smooth(nodes) == not_reached);
+  nodes.resize(5);
+  CHECK(kalman::smooth(nodes).ok());
+  const auto shorter = f.run(start, std::span(sites).first(2), nodes);
+  REQUIRE(shorter.reached == 2);
+  CHECK(kalman::smooth(nodes) == not_reached);
+  CHECK(kalman::smooth(nodes, kalman::modified_bryson_frazier{}) == not_reached);
+  CHECK(kalman::smooth(std::span(nodes).first(shorter.reached)).ok());
 }
 
 TEST_CASE("a run from a factored estimate leaves the same nodes", "[kalman]") {
