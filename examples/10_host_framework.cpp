@@ -77,10 +77,11 @@ static_assert(scifi::event_record<seen_by_chain>);
 
 // [module]
 /// One for each thread of the host. The chain is const and shared; what a thread works in is its own.
-template <class Chain>
 class fibre_tracking final : public host::module {
  public:
-  explicit fibre_tracking(std::shared_ptr<const Chain> chain) : chain_(std::move(chain)) {}
+  using chain = scifi::standard_reconstruction<>;  // in a uniform field
+
+  explicit fibre_tracking(std::shared_ptr<const chain> shared) : chain_(std::move(shared)) {}
 
   void process(host::run_event& e) override {
     seen_by_chain view(e);
@@ -88,8 +89,8 @@ class fibre_tracking final : public host::module {
   }
 
  private:
-  std::shared_ptr<const Chain> chain_;
-  typename Chain::buffers work_;
+  std::shared_ptr<const chain> chain_;
+  chain::buffers work_;
 };
 // [module]
 
@@ -138,7 +139,7 @@ int main() {
   for (std::size_t i = 0; i < events; ++i) simulate(mice, options.field, i, theirs[i], ours[i]);
 
   // [threads]
-  const auto chain = std::make_shared<const decltype(scifi::make_reconstruction(mice, options))>(scifi::make_reconstruction(mice, options));
+  const auto chain = std::make_shared<const fibre_tracking::chain>(scifi::make_reconstruction(mice, options));
   std::vector<std::thread> workers;
   for (std::size_t worker = 0; worker < threads; ++worker)
     workers.emplace_back([&theirs, worker, module = fibre_tracking(chain)]() mutable {

@@ -49,6 +49,10 @@ THIRD_PARTY = {"io": EIGEN + ("nlohmann/", "zlib.h", "fcntl.h", "sys/file.h", "s
 # headers of the standard library with a slash or a suffix in their name
 STANDARD = ("immintrin.h",)
 
+# where exceptions and run-time types may be used; elsewhere a wrong configuration goes through core/refuse.hpp, which compiles without them
+WITH_EXCEPTIONS = {"io", "conditions", "study"}
+EXCEPTION = re.compile(r"\b(throw|try|catch|dynamic_cast|typeid)\b")
+
 LONGEST_HEADER = 250
 SPDX = "SPDX-License-Identifier: MPL-2.0"
 SPDX_SUFFIXES = {".hpp", ".cpp", ".py", ".cmake", ".in", ".txt", ".sh", ".md"}
@@ -88,6 +92,10 @@ def check_header(headers, name, path, problem):
     if "#pragma once" not in lines:
         problem(path, 1, "has no #pragma once")
     folder = folder_of(name)
+    if folder not in WITH_EXCEPTIONS and name != "core/refuse.hpp":
+        for number, line in enumerate(lines, 1):
+            if EXCEPTION.search(re.sub(r'"(\\.|[^"\\])*"', "", line.split("//")[0])):
+                problem(path, number, "uses exceptions or run-time types: detail::refuse compiles without them")
     if folder is not None and folder not in ALLOWED:
         problem(path, 1, f"folder {folder} is not in the table of layers")
         return

@@ -7,6 +7,7 @@
 #include <Eigen/Core>
 
 #include <scifi/alignment/local_elimination.hpp>
+#include <scifi/core/refuse.hpp>
 
 namespace scifi::alignment {
 
@@ -39,7 +40,7 @@ class normal_equations {
 
   /// Adds the sum over other tracks. Throws std::invalid_argument when it is over other parameters.
   normal_equations& operator+=(const normal_equations& more) {
-    if (more.parameters() != parameters()) throw std::invalid_argument("scifi::alignment: sums over different numbers of parameters cannot be added");
+    if (more.parameters() != parameters()) scifi::detail::refuse<std::invalid_argument>("scifi::alignment: sums over different numbers of parameters cannot be added");
     matrix_ += more.matrix_;
     gradient_ += more.gradient_;
     own_ += more.own_;

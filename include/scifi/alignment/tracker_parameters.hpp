@@ -13,6 +13,7 @@
 
 #include <scifi/alignment/track_equations.hpp>
 #include <scifi/core/inline_vector.hpp>
+#include <scifi/core/refuse.hpp>
 #include <scifi/geometry/surface.hpp>
 #include <scifi/geometry/tracker.hpp>
 
@@ -69,14 +70,14 @@ class tracker_parameters {
   tracker_parameters(tracker where, free_motions free) : where_(std::move(where)), free_(std::move(free)) {
     for (const int id : free_.held)
       if (std::none_of(where_.stations.begin(), where_.stations.end(), [id](const station& s) { return s.id == id; }))
-        throw std::invalid_argument("there is no station " + std::to_string(id) + " in tracker " + std::to_string(where_.id));
+        scifi::detail::refuse<std::invalid_argument>("there is no station " + std::to_string(id) + " in tracker " + std::to_string(where_.id));
     for (const station& s : where_.stations) {
       if (std::find(free_.held.begin(), free_.held.end(), s.id) != free_.held.end()) continue;
       if (free_.level == level::stations) add(s.id, -1, {motion::x, motion::y});
       else
         for (std::size_t p = 0; p < s.planes.size(); ++p) add(s.id, static_cast<int>(p), {motion::along});
     }
-    if (parameters_.empty()) throw std::invalid_argument("nothing is free in tracker " + std::to_string(where_.id));
+    if (parameters_.empty()) scifi::detail::refuse<std::invalid_argument>("nothing is free in tracker " + std::to_string(where_.id));
   }
 
   [[nodiscard]] int size() const { return static_cast<int>(parameters_.size()); }

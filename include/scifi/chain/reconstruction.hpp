@@ -159,7 +159,8 @@ struct tracker_flight {
 /// The stages of the standard chain, for bent tracks that fly so.
 template <class Flight>
 using standard_fitter = track_fitter<mean_energy_loss, highland_scattering, landau_straggling, kalman::symmetric_form, kalman::no_gate, Flight, robust_refit, fibre_probability>;
-template <class Flight>
+/// What make_reconstruction returns, for a class that keeps one as a member; in a uniform field `standard_reconstruction<>`.
+template <class Flight = helix_propagator>
 using standard_reconstruction = reconstruction<cluster_finder<fibre_resolution>, space_point_finder, track_finder, standard_fitter<Flight>>;
 
 /// The standard chain for trackers of scintillating fibres, with `flight_in(tracker)`, a tracker_flight, in each tracker; `options.field` is not asked.

@@ -2,9 +2,11 @@
 #pragma once
 
 #include <cstddef>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
+#include <scifi/core/refuse.hpp>
 #include <scifi/geometry/channel_id.hpp>
 #include <scifi/geometry/station.hpp>
 #include <scifi/material/material.hpp>
@@ -21,6 +23,28 @@ struct tracker {
   material gas;                  ///< what fills the space between the stations
   std::vector<station> stations;
 };
+
+/// Throws std::invalid_argument, naming the planes, unless stations and their planes are listed in order of growing z.
+inline void check_order(const tracker& t) {
+  const station* last_station = nullptr;
+  double last_z = 0.0;
+  std::size_t last_plane = 0;
+  for (const station& s : t.stations) {
+    for (std::size_t i = 0; i < s.planes.size(); ++i) {
+      const double z = s.in_tracker.origin.z() + s.planes[i].z_measured;
+      if (last_station != nullptr && !(z > last_z)) {
+        const auto place = [](int station, std::size_t plane, double at) {
+          return "plane " + std::to_string(plane) + " of station " + std::to_string(station) + ", at z = " + std::to_string(at) + " mm,";
+        };
+        detail::refuse<std::invalid_argument>("tracker " + (t.name.empty() ? std::to_string(t.id) : t.name) + ": " + place(s.id, i, z) + " must lie behind " +
+                                              place(last_station->id, last_plane, last_z) + " which is listed before it");
+      }
+      last_station = &s;
+      last_z = z;
+      last_plane = i;
+    }
+  }
+}
 
 /// All trackers of an experiment.
 struct detector {

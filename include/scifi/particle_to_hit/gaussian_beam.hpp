@@ -53,7 +53,7 @@ struct gaussian_beam {
     double own = pz + pz_spread * random.normal();
     constexpr int most_draws = 1000;  // one in two is above, at least, in a beam that passed the check
     for (int draws = 1; !(own > slowest * pz); ++draws) {
-      if (draws == most_draws) throw std::invalid_argument("gaussian_beam: no pz is above a tenth of its mean");
+      if (draws == most_draws) detail::refuse<std::invalid_argument>("gaussian_beam: no pz is above a tenth of its mean");
       own = pz + pz_spread * random.normal();
     }
     out.momentum = {px, py, direction * own};

@@ -41,7 +41,7 @@ struct flat_beam {
     int draws = 0;
     constexpr int most_draws = 1000000;
     do {
-      if (++draws > most_draws) throw std::invalid_argument("flat_beam: hardly any pair of pt and pz has a slope below the limit");
+      if (++draws > most_draws) detail::refuse<std::invalid_argument>("flat_beam: hardly any pair of pt and pz has a slope below the limit");
       pz = random.uniform(pz_min, pz_max);
       pt = random.uniform(pt_min, pt_max);
     } while (!(pt <= pt_over_pz_max * pz) || !(pz > 0.0));

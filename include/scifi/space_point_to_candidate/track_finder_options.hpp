@@ -5,6 +5,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include <scifi/core/refuse.hpp>
 #include <scifi/track_model/q_over_pz_prior.hpp>
 
 namespace scifi {
@@ -36,13 +37,13 @@ struct track_finder_options {
   /// Throws std::invalid_argument, naming the culprit, where no track can be expected.
   void check() const {
     const auto positive = [](double x) { return x > 0.0 && std::isfinite(x); };
-    if (!std::isfinite(field)) throw std::invalid_argument("track_finder_options: the field must be finite");
-    if (!positive(line_momentum)) throw std::invalid_argument("track_finder_options: the momentum of straight tracks must be above zero");
-    if (!positive(largest_slope)) throw std::invalid_argument("track_finder_options: the largest slope must be above zero");
-    if (!positive(smallest_pz)) throw std::invalid_argument("track_finder_options: the smallest pz must be above zero");
+    if (!std::isfinite(field)) detail::refuse<std::invalid_argument>("track_finder_options: the field must be finite");
+    if (!positive(line_momentum)) detail::refuse<std::invalid_argument>("track_finder_options: the momentum of straight tracks must be above zero");
+    if (!positive(largest_slope)) detail::refuse<std::invalid_argument>("track_finder_options: the largest slope must be above zero");
+    if (!positive(smallest_pz)) detail::refuse<std::invalid_argument>("track_finder_options: the smallest pz must be above zero");
     if (!positive(prior.typical) || !(prior.spread >= 0.0 && std::isfinite(prior.spread)))
-      throw std::invalid_argument("track_finder_options: the prior of q/pz needs a typical value above zero and a spread that is not negative");
-    if (!(prior.typical * smallest_pz <= 1.0)) throw std::invalid_argument("track_finder_options: the typical q/pz of the prior belongs to a pz below the smallest");
+      detail::refuse<std::invalid_argument>("track_finder_options: the prior of q/pz needs a typical value above zero and a spread that is not negative");
+    if (!(prior.typical * smallest_pz <= 1.0)) detail::refuse<std::invalid_argument>("track_finder_options: the typical q/pz of the prior belongs to a pz below the smallest");
   }
 };
 

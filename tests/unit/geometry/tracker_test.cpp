@@ -1,7 +1,15 @@
 // SPDX-License-Identifier: MPL-2.0
 #include <scifi/geometry/tracker.hpp>
 
+#include <limits>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include <scifi/geometry/mice.hpp>
+
 #include "support/catch.hpp"
+#include "support/message_of.hpp"
 
 namespace {
 
@@ -47,4 +55,23 @@ TEST_CASE("a channel whose tracker, station or plane does not exist has no plane
   CHECK(d.find_plane({3, 2, 0, 0}) == nullptr);
   CHECK(d.find_plane({3, 4, 2, 0}) == nullptr);
   CHECK(d.find_plane({3, 4, -1, 0}) == nullptr);
+}
+
+TEST_CASE("a tracker whose planes are not in order of growing z is refused by their names", "[geometry]") {
+  const auto message = [](const scifi::tracker& t) { return scifi::test::message_of<std::invalid_argument>([&t] { scifi::check_order(t); }); };
+  const scifi::tracker good = scifi::mice::trackers().trackers[scifi::mice::downstream];
+  CHECK(message(good) == "(no error)");
+  CHECK(message(scifi::tracker{}) == "(no error)");
+
+  scifi::tracker swapped = good;
+  std::swap(swapped.stations[1], swapped.stations[3]);
+  CHECK(message(swapped).find("tracker TKD: plane 0 of station 3, at z = ") == 0);
+  CHECK(message(swapped).find("must lie behind plane 2 of station 4, at z = ") != std::string::npos);
+  // Positions in metres beside planes in millimetres.
+  scifi::tracker metres = good;
+  for (scifi::station& s : metres.stations) s.in_tracker.origin *= 1e-3;
+  CHECK(message(metres).find("plane 0 of station 2") != std::string::npos);
+  scifi::tracker unknown = good;
+  unknown.stations[0].in_tracker.origin.z() = std::numeric_limits<double>::quiet_NaN();
+  CHECK(message(unknown).find("plane 1 of station 1, at z = nan mm") != std::string::npos);
 }
