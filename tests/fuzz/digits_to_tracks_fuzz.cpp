@@ -6,6 +6,6 @@
 
 namespace scifi::fuzz {
 
-inline const registered digits_to_tracks_target("digits_to_tracks", [](std::string_view bytes) { reconstruct_absurd_digits(bytes, 100); });
+inline const registered digits_to_tracks_target("digits_to_tracks", [](std::string_view bytes) { reconstruct_absurd_digits(bytes, 60); });
 
 }  // namespace scifi::fuzz
