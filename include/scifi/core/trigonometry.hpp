@@ -35,7 +35,7 @@ struct turning {
 
 /// Evaluates `turning` at the angle t (rad).
 template <scalar Scalar>
-[[nodiscard]] turning<Scalar> turning_at(const Scalar& t) {
+[[nodiscard, gnu::always_inline]] inline turning<Scalar> turning_at(const Scalar& t) {
   const auto small = magnitude(t) < Scalar(0.5);
   const Scalar q = t * t;
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 #pragma once
 
+#include <new>
 #include <type_traits>
 
 #include <scifi/kalman/apply_gate.hpp>
@@ -56,6 +57,19 @@ template <class Propagator, class Noise, class Scalar, int N, class Step, class 
     const auto moved = propagate_fully(p, x, step);
     const matrix<Scalar, N, N>& noise = noise_covariance<Scalar, N>(q, x, step, moved);
     use(moved.state, moved.jacobian, noise);
+  }
+}
+
+/// The same written where it is to stay, which is not where x is. A function of its own: in line with the filter the two would crowd each other's registers.
+template <class Propagator, class Noise, class Scalar, int N, class Step>
+[[gnu::noinline]] void set_step(const Propagator& p, const Noise& q, const vector<Scalar, N>& x, const Step& step, vector<Scalar, N>& end, matrix<Scalar, N, N>& jacobian, matrix<Scalar, N, N>& noise) {
+  if constexpr (models_in_place<Propagator, Noise, Scalar, N, Step>) {
+    q.covariance_into(noise, x, step, p.propagate_into(propagated_view<Scalar, N>{end, jacobian}, x, step));
+  } else {
+    const auto moved = propagate_fully(p, x, step);
+    copy_columns<Scalar, N, N>(jacobian, moved.jacobian);
+    ::new (static_cast<void*>(&noise)) matrix<Scalar, N, N>(noise_covariance<Scalar, N>(q, x, step, moved));  // made in its place
+    end = moved.state;
   }
 }
 

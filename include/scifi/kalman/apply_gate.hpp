@@ -24,7 +24,7 @@ inline constexpr bool is_reference<std::reference_wrapper<T>> = true;
 
 /// Calls `f` with the measurement that a variant or an optional holds; with `no_measurement` where it holds none.
 template <class M, class F>
-[[nodiscard]] auto visit_measurement(const std::optional<M>& m, F&& f) {
+[[gnu::always_inline]] inline auto visit_measurement(const std::optional<M>& m, F&& f) {
   return m ? f(*m) : f(no_measurement{});
 }
 template <class... Ms, class F>
@@ -34,8 +34,8 @@ template <class... Ms, class F>
 
 /// Calls `f` with the measurement that is there in the end, however variants and optionals are nested; with `no_measurement` where there is none.
 template <class Measurement, class F>
-void each_alternative(const Measurement& m, const F& f) {
-  if constexpr (mixed_measurement<Measurement>) visit_measurement(m, [&f](const auto& one) { each_alternative(one, f); });
+[[gnu::always_inline]] inline void each_alternative(const Measurement& m, const F& f) {
+  if constexpr (mixed_measurement<Measurement>) visit_measurement(m, [&f](const auto& one) __attribute__((always_inline)) { each_alternative(one, f); });
   else f(m);
 }
 

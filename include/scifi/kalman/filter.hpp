@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MPL-2.0
 #pragma once
 
-#include <new>
 #include <optional>
 #include <utility>
 
@@ -123,7 +122,7 @@ class filter {
 
   /// The model's part of a step: where the state `from` ends, the Jacobian of the way and its noise.
   template <class Estimate, class Step, class State, class Square>
-  void fly_into(const State& from, const Step& step, State& arrived, Square& jacobian, Square& noise) const {
+  [[gnu::always_inline]] void fly_into(const State& from, const Step& step, State& arrived, Square& jacobian, Square& noise) const {
     using Scalar = typename Estimate::scalar;
     constexpr int N = Estimate::dimension;
     if constexpr (detail::is_reference<Step>) return fly_into<Estimate>(from, step.get(), arrived, jacobian, noise);
@@ -131,11 +130,7 @@ class filter {
       if (step) return fly_into<Estimate>(from, *step, arrived, jacobian, noise);
     } else if constexpr (detail::model_spaces_agree<Propagator, Noise>::value && detail::propagator_fits<Propagator, Scalar, N, Step>::value &&
                          detail::noise_fits<Noise, Scalar, N, Step>::value) {
-      const auto moved = detail::propagate_fully(propagator_, from, step);
-      detail::copy_columns<Scalar, N, N>(jacobian, moved.jacobian);
-      ::new (static_cast<void*>(&noise)) Square(detail::noise_covariance<Scalar, N>(noise_, from, step, moved));  // made in its place
-      arrived = moved.state;
-      return;
+      return detail::set_step(propagator_, noise_, from, step, arrived, jacobian, noise);
     }
     jacobian.setIdentity();  // no step to take, or behind an error
     noise.setZero();
@@ -144,7 +139,7 @@ class filter {
 
   /// The filter's part: the estimate carried over a step that `about`, or its own mean, was flown over.
   template <class Estimate, class Step, class About, class State, class Square>
-  [[nodiscard]] status carry_into(const Estimate& prior, const Step& step, const About& about, const State& arrived, const Square& jacobian, const Square& noise, Estimate& end) const {
+  [[nodiscard, gnu::always_inline]] status carry_into(const Estimate& prior, const Step& step, const About& about, const State& arrived, const Square& jacobian, const Square& noise, Estimate& end) const {
     using Scalar = typename Estimate::scalar;
     constexpr int N = Estimate::dimension;
     if constexpr (detail::is_reference<Step>) return carry_into(prior, step.get(), about, arrived, jacobian, noise, end);
@@ -218,7 +213,7 @@ class filter {
   }();
 
   template <class Estimate, class Measurement, class Node, class... About>
-  void update_into(const Estimate& prior, const Measurement& m, Node& n, const About&...) const {
+  [[gnu::always_inline]] void update_into(const Estimate& prior, const Measurement& m, Node& n, const About&...) const {
     constexpr int M = max_measurement_dimension<Measurement>;
     const auto record = [&n](const auto& seen, const auto& k) {
       detail::assign_bounded(n.residual, seen.residual);

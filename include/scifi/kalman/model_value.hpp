@@ -16,6 +16,13 @@ struct propagated {
 template <class State, class Jacobian>
 propagated(const Eigen::MatrixBase<State>&, const Eigen::MatrixBase<Jacobian>&) -> propagated<typename State::Scalar, State::RowsAtCompileTime>;
 
+/// The same for a propagator that writes it where it is to stay.
+template <class Scalar, int N>
+struct propagated_view {
+  vector<Scalar, N>& state;
+  matrix<Scalar, N, N>& jacobian;
+};
+
 /// What `project(x)` returns: the expected measurement and its derivative, jacobian(i, j) = d value_i / d x_j (M x N).
 template <class Scalar, int M, int N>
 struct projected {

@@ -17,6 +17,12 @@ concept has_transition = requires(const P& p, const Step& step) { p.transition(s
 template <class P, class Scalar, int N, class Step>
 concept has_propagate = requires(const P& p, const vector<Scalar, N>& x, const Step& step) { p.propagate(x, step); };
 
+/// True where both parts of a model can write what they work out where it is to stay: optional, and what the propagator returns is handed to the noise.
+template <class P, class Q, class Scalar, int N, class Step>
+concept models_in_place = requires(const P& p, const Q& q, const propagated_view<Scalar, N>& end, matrix<Scalar, N, N>& noise, const vector<Scalar, N>& x, const Step& step) {
+  q.covariance_into(noise, x, step, p.propagate_into(end, x, step));
+};
+
 /// out = value, of any scalar; a plain number fills a 1 x 1 matrix.
 template <class Scalar, int Rows, int Cols, class T>
 [[gnu::always_inline]] inline void assign_matrix(matrix<Scalar, Rows, Cols>& out, const T& value) {

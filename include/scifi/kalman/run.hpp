@@ -60,7 +60,7 @@ void set_estimate(estimate<Scalar, N>& out, const estimate<Scalar, N>& e) {
 }
 
 template <class Node, class Updated>
-void record_update(Node& n, const Updated& u) {
+[[gnu::noinline]] void record_update(Node& n, const Updated& u) {
   set_estimate<typename Node::scalar, Node::dimension>(n.filtered, unfactored(u.posterior));
   assign_bounded(n.residual, u.residual);
   assign_bounded(n.residual_covariance, u.residual_covariance);
@@ -109,11 +109,11 @@ template <class Filter, class Prior, class Sites, class Nodes, class References>
         if constexpr (factored) return own_prediction;
         else return n.predicted;
       }();
-      [[maybe_unused]] const auto predict = [&](const auto& about, const auto& arrived) { return f.predict_into(*current, here.step, about, arrived, prediction, n.jacobian, n.noise); };
+      [[maybe_unused]] const auto predict = [&](const auto& about, const auto& arrived) __attribute__((always_inline)) { return f.predict_into(*current, here.step, about, arrived, prediction, n.jacobian, n.noise); };
       // Each alternative of a mixed measurement is taken in by matrices of its own size.
-      const auto take = [&](status predicted, const auto&... about) {
+      const auto take = [&](status predicted, const auto&... about) __attribute__((always_inline)) {
         if constexpr (factored) n.predicted = unfactored(prediction);
-        each_alternative(here.measurement, [&](const auto& m) {
+        each_alternative(here.measurement, [&](const auto& m) __attribute__((always_inline)) {
           if constexpr (!factored && std::remove_cvref_t<decltype(f)>::template updates_in_place<estimate_type, std::remove_cvref_t<decltype(m)>, decltype(about)...>) {
             if (predicted.ok()) {
               f.update_into(prediction, m, n, about...);
@@ -128,7 +128,7 @@ template <class Filter, class Prior, class Sites, class Nodes, class References>
         });
         return n.status;
       };
-      const auto one = [&] {
+      const auto one = [&]() __attribute__((always_inline)) {
         if constexpr (std::is_same_v<References, no_references>) {
           return take(predict(nullptr, nullptr));
         } else if constexpr (is_flown<References>) {

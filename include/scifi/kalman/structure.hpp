@@ -3,6 +3,8 @@
 
 #include <array>
 
+#include <scifi/core/linalg.hpp>
+
 /// Structure that models declare of their matrices at compile time, so that nothing is multiplied by zeros and ones.
 ///
 /// A propagator: `static constexpr std::array unit_columns{...}`, the columns of its Jacobian that are those of the identity for every state and step; a
@@ -39,6 +41,14 @@ template <class Measurement>
 }
 
 [[nodiscard]] constexpr bool has_bit(unsigned bits, int i) { return ((bits >> i) & 1u) != 0; }
+
+/// Makes the columns of a Jacobian whose bit is set those of the identity.
+template <unsigned Unit, class Scalar, int N>
+[[gnu::always_inline]] inline void set_unit_columns(matrix<Scalar, N, N>& jacobian) {
+  for (int j = 0; j < N; ++j)
+    for (int i = 0; i < N; ++i)
+      if (has_bit(Unit, j)) jacobian(i, j) = Scalar(i == j ? 1.0 : 0.0);
+}
 
 }  // namespace detail
 

@@ -70,7 +70,7 @@ struct prepared_highland {
 
   /// Of the projected angle, rad^2.
   template <scalar Scalar>
-  [[nodiscard]] Scalar variance(const crossing_particle<Scalar>& c) const {
+  [[nodiscard, gnu::always_inline]] Scalar variance(const crossing_particle<Scalar>& c) const {
     const Scalar l = c.log_path_over_beta_squared;
     return (Scalar(constant) + l * (Scalar(linear) + l * Scalar(quadratic))) * c.path_over_thickness * c.per_p_beta_squared;
   }

@@ -13,7 +13,7 @@ namespace scifi {
 
 /// sum += more, with the derivatives.
 template <scalar Scalar>
-void add_loss(energy_loss<Scalar>& sum, const energy_loss<Scalar>& more) {
+[[gnu::always_inline]] inline void add_loss(energy_loss<Scalar>& sum, const energy_loss<Scalar>& more) {
   sum.value += more.value;
   sum.d_value_d_p += more.d_value_d_p;
   sum.d_value_d_path_factor += more.d_value_d_path_factor;
@@ -21,7 +21,7 @@ void add_loss(energy_loss<Scalar>& sum, const energy_loss<Scalar>& more) {
 
 /// Energy lost in all slabs of all stacks, MeV, with its derivatives.
 template <class Policy, scalar Scalar, class... Stacks>
-[[nodiscard]] energy_loss<Scalar> loss_in_slabs(const Policy& policy, const crossing_particle<Scalar>& crossing, const particle& hypothesis, const Stacks&... stacks) {
+[[nodiscard, gnu::always_inline]] inline energy_loss<Scalar> loss_in_slabs(const Policy& policy, const crossing_particle<Scalar>& crossing, const particle& hypothesis, const Stacks&... stacks) {
   energy_loss<Scalar> sum{Scalar(0.0), Scalar(0.0), Scalar(0.0)};
   const auto add = [&](const slab& s) {
     const energy_loss<Scalar> one = [&] {
@@ -30,7 +30,7 @@ template <class Policy, scalar Scalar, class... Stacks>
     }();
     add_loss(sum, one);
   };
-  const auto add_stack = [&](const auto& stack) {
+  const auto add_stack = [&](const auto& stack) __attribute__((always_inline)) {
     if constexpr (requires { stack.loss(crossing); }) {
       if (stack.empty()) return;
       const energy_loss<Scalar> all = stack.loss(crossing);

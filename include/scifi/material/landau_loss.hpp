@@ -120,14 +120,16 @@ class prepared_landau_loss {
         const double d_sum = xi_ * d_log_xi - 2.0 * k.per_beta_gamma * of_momentum.x_times_slope;
         return {c.path_over_beta_squared * sum, c.path_over_beta_squared * (d_log_xi * sum + d_sum) * (1.0 / hypothesis_.mass), k.per_beta_squared * (sum + xi_)};
       }
+      return by_formula(c.p, c.path_over_thickness);
+    } else {
+      return loss_in_landau_slabs(c, hypothesis_, slabs_);
     }
-    return by_formula(c);
   }
 
  private:
-  template <scalar Scalar>
-  [[nodiscard, gnu::noinline]] energy_loss<Scalar> by_formula(const crossing_particle<Scalar>& c) const {
-    return loss_in_landau_slabs(c, hypothesis_, slabs_);
+  /// Takes two numbers, not the particle that is crossing: what of that is not used need then not be worked out.
+  [[nodiscard, gnu::noinline]] energy_loss<double> by_formula(double p, double path_over_thickness) const {
+    return loss_in_landau_slabs(crossing_particle_of(p, hypothesis_, path_over_thickness), hypothesis_, slabs_);
   }
 
   /// Sum of xi times (bracket - ln(path/beta^2)) of the mode; NaN where the bracket along the normal is negative.

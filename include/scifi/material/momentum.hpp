@@ -19,7 +19,7 @@ struct momentum_change {
 
 /// `momentum_after_loss` below where E (MeV) and 1/E are known already.
 template <scalar Scalar>
-[[nodiscard]] momentum_change<Scalar> momentum_after_loss(const Scalar& p, double mass, const Scalar& energy, const Scalar& per_energy, const Scalar& energy_lost) {
+[[nodiscard, gnu::always_inline]] inline momentum_change<Scalar> momentum_after_loss(const Scalar& p, double mass, const Scalar& energy, const Scalar& per_energy, const Scalar& energy_lost) {
   using std::sqrt;
   const Scalar p2 = p * p;
   const auto moving = energy_lost * (energy + Scalar(mass)) < p2;  // less than the kinetic energy p^2 / (E + m)

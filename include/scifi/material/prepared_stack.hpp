@@ -52,17 +52,17 @@ class prepared_stack {
 
   /// Energy lost, MeV, with its derivatives.
   template <scalar Scalar>
-  [[nodiscard]] energy_loss<Scalar> loss(const crossing_particle<Scalar>& crossing) const {
+  [[nodiscard, gnu::always_inline]] energy_loss<Scalar> loss(const crossing_particle<Scalar>& crossing) const {
     return loss_.loss(crossing);
   }
   /// Of the projected angle, rad^2.
   template <scalar Scalar>
-  [[nodiscard]] Scalar angle_variance(const crossing_particle<Scalar>& crossing) const {
+  [[nodiscard, gnu::always_inline]] Scalar angle_variance(const crossing_particle<Scalar>& crossing) const {
     return scattering_.variance(crossing);
   }
   /// Of the energy, MeV^2.
   template <scalar Scalar>
-  [[nodiscard]] Scalar energy_variance(const crossing_particle<Scalar>& crossing) const {
+  [[nodiscard, gnu::always_inline]] Scalar energy_variance(const crossing_particle<Scalar>& crossing) const {
     return straggling_.variance(crossing);
   }
 

@@ -54,18 +54,22 @@ class prepared_landau_straggling {
 
   /// Of the energy, MeV^2.
   template <scalar Scalar>
-  [[nodiscard]] Scalar variance(const crossing_particle<Scalar>& c) const {
+  [[nodiscard, gnu::always_inline]] Scalar variance(const crossing_particle<Scalar>& c) const {
     const Scalar whole = bohr_variance(Scalar(1.0), c.kinematics);
     if (all_of(c.path_over_beta_squared * Scalar(thickest_) <= whole)) return c.path_over_beta_squared * c.path_over_beta_squared * Scalar(core_);
+    return slab_by_slab(c.path_over_beta_squared, whole);
+  }
+
+ private:
+  template <scalar Scalar>
+  [[nodiscard, gnu::noinline]] Scalar slab_by_slab(Scalar path_over_beta_squared, Scalar whole) const {
     Scalar sum(0.0);
     for (const part& s : slabs_) {
-      const Scalar xi = c.path_over_beta_squared * Scalar(s.xi);
+      const Scalar xi = path_over_beta_squared * Scalar(s.xi);
       sum += xi * smaller_of(Scalar(xi * Scalar(s.core)), whole);
     }
     return sum;
   }
-
- private:
   struct part {
     double xi, core;
   };

@@ -22,6 +22,13 @@ struct propagated_in_matter : kalman::propagated<Scalar, 5> {
   crossing_particle<Scalar> crossing;  ///< set where the leg has material
 };
 
+/// The same, written where it is to stay.
+template <class Scalar>
+struct propagated_view_in_matter : kalman::propagated_view<Scalar, 5> {
+  explicit propagated_view_in_matter(const kalman::propagated_view<Scalar, 5>& to) : kalman::propagated_view<Scalar, 5>(to) {}
+  crossing_particle<Scalar> crossing;  ///< set where the leg has material
+};
+
 /// A propagator of slope_state that flies with another one and loses energy in the material of the leg.
 ///
 /// The flight takes a distance (helix_propagator) or a `stretch` (nystrom_propagator).
@@ -41,15 +48,31 @@ struct energy_loss_propagator {
   /// State (5, slope_state) at the end of the leg and its Jacobian d_end_d_start (5 x 5). The leg is a `leg` or a `prepared_leg`.
   template <class Scalar, class Leg>
   [[nodiscard]] auto propagate(const vector<Scalar, 5>& start, const Leg& step) const {
-    if constexpr (std::is_same_v<EnergyLoss, no_energy_loss>) return flown(flight, start, step);
-    else return through_matter(start, step);
+    if constexpr (std::is_same_v<EnergyLoss, no_energy_loss>) {
+      return flown(flight, start, step);
+    } else {
+      propagated_in_matter<Scalar> end;
+      end.crossing = propagate_into(kalman::propagated_view<Scalar, 5>{end.state, end.jacobian}, start, step).crossing;
+      return end;
+    }
+  }
+
+  /// The same, written where it is to stay, which is not where it starts.
+  template <class Scalar, class Leg>
+  [[gnu::always_inline]] auto propagate_into(const kalman::propagated_view<Scalar, 5>& to, const vector<Scalar, 5>& start, const Leg& step) const {
+    if constexpr (std::is_same_v<EnergyLoss, no_energy_loss>) {
+      fly(to, start, step);
+      return to;
+    } else {
+      return through_matter(to, start, step);
+    }
   }
 
  private:
   template <class Scalar, class Leg>
-  [[nodiscard]] propagated_in_matter<Scalar> through_matter(const vector<Scalar, 5>& start, const Leg& step) const {
+  [[nodiscard, gnu::always_inline]] propagated_view_in_matter<Scalar> through_matter(const kalman::propagated_view<Scalar, 5>& to, const vector<Scalar, 5>& start, const Leg& step) const {
     using s = slope_state;
-    propagated_in_matter<Scalar> end;
+    propagated_view_in_matter<Scalar> end(to);
     const bool in_matter = !(step.start.empty() && step.gap.empty() && step.finish.empty());
     changed<Scalar> departing{start[s::q_over_pz], Scalar(1.0), Scalar(0.0), Scalar(0.0)};
     changed<Scalar> arriving = departing;
@@ -97,9 +120,14 @@ struct energy_loss_propagator {
   }
 
   template <class Scalar, class Leg>
-  void fly(kalman::propagated<Scalar, 5>& end, const vector<Scalar, 5>& start, const Leg& step) const {
-    if constexpr (requires { flight.propagate_into(end, start, step.dz); }) flight.propagate_into(end, start, step.dz);
-    else end = flown(flight, start, step);
+  [[gnu::always_inline]] void fly(const kalman::propagated_view<Scalar, 5>& end, const vector<Scalar, 5>& start, const Leg& step) const {
+    if constexpr (requires { flight.propagate_into(end, start, step.dz); }) {
+      flight.propagate_into(end, start, step.dz);
+    } else {
+      const kalman::propagated<Scalar, 5> moved = flown(flight, start, step);
+      end.state = moved.state;
+      end.jacobian = moved.jacobian;
+    }
   }
 
   /// q/pz after some material and its derivatives in q/pz and the slopes before.

@@ -6,6 +6,7 @@
 #include <scifi/core/linalg.hpp>
 #include <scifi/core/trigonometry.hpp>
 #include <scifi/kalman/concepts.hpp>
+#include <scifi/kalman/structure.hpp>
 #include <scifi/track_model/helix_state.hpp>
 #include <scifi/track_model/slope_state.hpp>
 
@@ -27,13 +28,13 @@ struct helix_propagator {
   template <class Scalar>
   [[nodiscard]] kalman::propagated<Scalar, 5> propagate(const vector<Scalar, 5>& start, double dz) const {
     kalman::propagated<Scalar, 5> end;
-    propagate_into(end, start, dz);
+    propagate_into(kalman::propagated_view<Scalar, 5>{end.state, end.jacobian}, start, dz);
     return end;
   }
 
   /// The same, written where it is to stay.
   template <class Scalar>
-  [[gnu::always_inline]] void propagate_into(kalman::propagated<Scalar, 5>& end, const vector<Scalar, 5>& start, double dz) const {
+  [[gnu::always_inline]] kalman::propagated_view<Scalar, 5> propagate_into(const kalman::propagated_view<Scalar, 5>& end, const vector<Scalar, 5>& start, double dz) const {
     using s = slope_state;
     const Scalar length = Scalar(dz);
     const Scalar per_k = Scalar(field * dz);
@@ -50,8 +51,7 @@ struct helix_propagator {
     end.state[s::q_over_pz] = start[s::q_over_pz];
 
     auto& j = end.jacobian;
-    for (const int unit : unit_columns)
-      for (int i = 0; i < s::dimension; ++i) j(i, unit) = Scalar(i == unit ? 1.0 : 0.0);
+    kalman::detail::set_unit_columns<kalman::detail::bits_of(unit_columns)>(j);
     j(s::q_over_pz, s::tx) = Scalar(0.0);
     j(s::q_over_pz, s::ty) = Scalar(0.0);
     j(s::q_over_pz, s::q_over_pz) = Scalar(1.0);
@@ -67,6 +67,7 @@ struct helix_propagator {
     j(s::y, s::q_over_pz) = length * per_k * (t.d_s1 * ty - t.d_c1 * tx);
     j(s::tx, s::q_over_pz) = per_k * ty_end;
     j(s::ty, s::q_over_pz) = -per_k * tx_end;
+    return end;
   }
 };
 

@@ -44,8 +44,19 @@ struct material_noise {
   /// 5 x 5 covariance at the end of the leg; `moved` is what the propagator made of `start`. Widths are taken at the momentum at the start.
   template <class Scalar, class Leg, class Moved>
   [[nodiscard]] matrix<Scalar, 5, 5> covariance(const vector<Scalar, 5>& start, const Leg& step, const Moved& moved) const {
+    matrix<Scalar, 5, 5> q;
+    covariance_into(q, start, step, moved);
+    return q;
+  }
+
+  /// The same, written where it is to stay.
+  template <class Scalar, class Leg, class Moved>
+  [[gnu::always_inline]] void covariance_into(matrix<Scalar, 5, 5>& q, const vector<Scalar, 5>& start, const Leg& step, const Moved& moved) const {
     using s = slope_state;
-    if (step.start.empty() && step.gap.empty() && step.finish.empty()) return matrix<Scalar, 5, 5>::Zero();
+    if (step.start.empty() && step.gap.empty() && step.finish.empty()) {
+      q.setZero();
+      return;
+    }
     const crossing_particle<Scalar>& crossing = [&]() -> decltype(auto) {
       if constexpr (requires { moved.crossing; }) {
         return (moved.crossing);
@@ -56,7 +67,6 @@ struct material_noise {
       }
     }();
 
-    matrix<Scalar, 5, 5> q;
     if (step.start.empty()) q.setZero();
     else carry_start(q, start, moved.jacobian, crossing, widths_of(crossing, step.start));
     const auto add = [&q](int i, int j, const Scalar& value) {
@@ -88,7 +98,6 @@ struct material_noise {
     add(s::tx, s::q_over_pz, all.angle * c.tx_k);
     add(s::ty, s::q_over_pz, all.angle * c.ty_k);
     add(s::q_over_pz, s::q_over_pz, all.angle * c.k_k + lost(moved.state, crossing, all.energy));
-    return q;
   }
 
  private:
@@ -98,7 +107,7 @@ struct material_noise {
     Scalar angle, energy;
   };
   template <class Scalar, class Stack>
-  [[nodiscard]] widths<Scalar> widths_of(const crossing_particle<Scalar>& crossing, const Stack& stack) const {
+  [[nodiscard, gnu::always_inline]] widths<Scalar> widths_of(const crossing_particle<Scalar>& crossing, const Stack& stack) const {
     if constexpr (requires { stack.angle_variance(crossing); }) return {stack.angle_variance(crossing), stack.energy_variance(crossing)};
     else return {variance_in_slabs(scattering, crossing, hypothesis, stack), variance_in_slabs(straggling, crossing, hypothesis, stack)};
   }
@@ -109,7 +118,7 @@ struct material_noise {
     Scalar tx_tx, tx_ty, ty_ty, tx_k, ty_k, k_k;
   };
   template <class Scalar>
-  [[nodiscard]] static kick<Scalar> kick_at(const vector<Scalar, 5>& at) {
+  [[nodiscard, gnu::always_inline]] static kick<Scalar> kick_at(const vector<Scalar, 5>& at) {
     using s = slope_state;
     const Scalar tx = at[s::tx];
     const Scalar ty = at[s::ty];
@@ -122,14 +131,14 @@ struct material_noise {
 
   /// Variance of q/pz from that of the energy: d(q/pz)/dE = -(q/pz)/p dp/dE, dp/dE = E/p = 1/beta.
   template <class Scalar>
-  [[nodiscard]] static Scalar lost(const vector<Scalar, 5>& at, const crossing_particle<Scalar>& crossing, const Scalar& energy) {
+  [[nodiscard, gnu::always_inline]] static Scalar lost(const vector<Scalar, 5>& at, const crossing_particle<Scalar>& crossing, const Scalar& energy) {
     const Scalar k = at[slope_state::q_over_pz];
     return energy * k * k * crossing.per_p_beta_squared;
   }
 
   /// q = F C F' for the kick C at the start, which has only the rows and columns tx, ty, q/pz.
   template <class Scalar>
-  static void carry_start(matrix<Scalar, 5, 5>& q, const vector<Scalar, 5>& start, const matrix<Scalar, 5, 5>& jacobian, const crossing_particle<Scalar>& crossing, const widths<Scalar>& w) {
+  [[gnu::always_inline]] static void carry_start(matrix<Scalar, 5, 5>& q, const vector<Scalar, 5>& start, const matrix<Scalar, 5, 5>& jacobian, const crossing_particle<Scalar>& crossing, const widths<Scalar>& w) {
     using s = slope_state;
     const kick<Scalar> c = kick_at(start);
     matrix<Scalar, 3, 3> at_start;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 #include <scifi/kalman/advance.hpp>
 
+#include <cmath>
 #include <limits>
 #include <optional>
 #include <random>
@@ -46,7 +47,54 @@ void check_update(const Update& update) {
   check_against_two_calls<6, 3>(update, kalman::no_gate{});
 }
 
+/// A model that can write what it works out where it is to stay, and whose noise asks for what the propagator hands on beside it.
+template <bool InPlace>
+struct swinging {
+  double rate = 0.3;
+  struct moved_by : kalman::propagated_view<double, 2> {
+    double angle;
+  };
+  kalman::propagated<double, 2> propagate(const scifi::vector<double, 2>& x, double dt) const {
+    kalman::propagated<double, 2> end;
+    write({end.state, end.jacobian}, x, dt);
+    return end;
+  }
+  moved_by propagate_into(const kalman::propagated_view<double, 2>& end, const scifi::vector<double, 2>& x, double dt) const
+    requires InPlace
+  {
+    write(end, x, dt);
+    return {end, rate * dt};
+  }
+  void write(const kalman::propagated_view<double, 2>& end, const scifi::vector<double, 2>& x, double dt) const {
+    const double c = std::cos(rate * dt), s = std::sin(rate * dt);
+    end.jacobian << c, s, -s, c;
+    end.state << c * x(0) + s * x(1), c * x(1) - s * x(0);
+  }
+};
+struct swinging_noise {
+  double rate = 0.3;
+  scifi::matrix<double, 2, 2> covariance(const scifi::vector<double, 2>&, double dt, const kalman::propagated<double, 2>& moved) const {
+    return rate * dt * moved.jacobian * moved.jacobian.transpose();
+  }
+  void covariance_into(scifi::matrix<double, 2, 2>& q, const scifi::vector<double, 2>&, double, const swinging<true>::moved_by& moved) const {
+    q = moved.angle * moved.jacobian * moved.jacobian.transpose();
+  }
+};
+
 }  // namespace
+
+TEST_CASE("a model that writes where its results are to stay moves an estimate as one that returns them", "[kalman]") {
+  const kalman::filter returning{swinging<false>{}, swinging_noise{}, kalman::symmetric_form{}};
+  const kalman::filter writing{swinging<true>{}, swinging_noise{}, kalman::symmetric_form{}};
+  STATIC_REQUIRE(kalman::detail::models_in_place<swinging<true>, swinging_noise, double, 2, double>);
+  STATIC_REQUIRE_FALSE(kalman::detail::models_in_place<swinging<false>, swinging_noise, double, 2, double>);
+  const kalman::estimate<double, 2> e{scifi::vector<double, 2>(1.0, -2.0), scifi::matrix<double, 2, 2>::Identity()};
+  const auto a = returning.predict(e, 1.7), b = writing.predict(e, 1.7);
+  CHECK(a.estimate.mean == b.estimate.mean);
+  CHECK(a.jacobian == b.jacobian);
+  CHECK((a.noise - b.noise).norm() < rounding);
+  CHECK(laws::estimate_distance(a.estimate, b.estimate) < rounding);
+}
 
 TEST_CASE("a step in place ends where predict and update do, with every update policy", "[kalman]") {
   check_update(kalman::symmetric_form{});
