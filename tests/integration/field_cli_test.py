@@ -99,7 +99,7 @@ class Fields(programs.InAFolder):
         self.write("bad.map", good.replace("20 0 0.0 3.0", "20 0 0.0 x", 1))
         self.write("cut.map.gz", gzip.compress(good.encode())[:-20])
         self.write("short.map", HEAD + "".join(f"{r} {z} 0 3\n" for r in (0, 50, 100) for z in (0, 100, 200)))
-        for field, message in (("none.map", "none.map: cannot be opened: No such file or directory"), ("bad.map", "bad.map:72: bz: 'x' is not a number"),
+        for field, message in (("none.map", "--field: 'none.map' is neither a number of tesla nor 'coils' nor a file that exists"), ("bad.map", "bad.map:72: bz: 'x' is not a number"),
                                ("cut.map.gz", "the gzip data end too early: the file is truncated"), ("s_digits.csv", "s_digits.csv:1: is not a field map"), ("coils", "--field coils: the geometry has no coils"),
                                ("short.map", "short.map: does not cover the axis of tracker"), ("nan", "--field: nan is not a number of tesla"), ("1e9", "--field: 1e9 is not a number of tesla")):
             for program, options in (("scifi-reconstruct", ["s_digits.csv"]), ("scifi-simulate", ["--events", 2, "--output", "t"])):

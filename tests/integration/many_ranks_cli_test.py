@@ -166,7 +166,7 @@ class ManyRanks(programs.BesideItsPage):
         bad = self.digits.split(b"\n")
         bad[len(bad) // 2] += b",1"
         (self.folder / "in.csv").write_bytes(b"\n".join(bad))
-        for arguments, status, message in ((["in.csv"], 2, "fields where the header names"), (["none.csv"], 2, "none.csv: cannot be opened"), (["s_digits.csv", "--field", "x"], 2, "x: cannot be opened"),
+        for arguments, status, message in ((["in.csv"], 2, "fields where the header names"), (["none.csv"], 2, "none.csv: cannot be opened"), (["s_digits.csv", "--field", "x"], 2, "--field: 'x' is neither a number of tesla"),
                                            (["s_digits.csv", "--threads", "2"], 2, "--threads: under mpirun every rank is one thread"), (["s_digits.csv", "--nonsense"], 2, "--nonsense")):
             with self.subTest(arguments=arguments):
                 result = self.on_ranks(4, *arguments, *OUTPUTS)

@@ -5,6 +5,7 @@
 #include <charconv>
 #include <cmath>
 #include <cstddef>
+#include <filesystem>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -46,6 +47,7 @@ class chosen_field {
       if (!std::isfinite(*number) || std::abs(*number) > largest_tesla) throw std::invalid_argument(fmt::format("--field: {} is not a number of tesla from -{} to {}", given_, largest_tesla, largest_tesla));
       uniform_ = *number * scifi::units::tesla;
     } else if (given_ != "coils") {
+      if (std::error_code none; !std::filesystem::exists(given_, none)) throw std::invalid_argument("--field: '" + given_ + "' is neither a number of tesla nor 'coils' nor a file that exists");
       file_ = scifi::read_field_map(given_, outside_ == "zero" ? scifi::outside_map::zero : outside_ == "nearest" ? scifi::outside_map::nearest : scifi::outside_map::error);
       mapped_ = true;
     } else if (geometry == nullptr || geometry->coils.empty() || geometry->coils.front().empty()) {

@@ -19,29 +19,28 @@ struct tracker {
   std::string name;              ///< for messages and tables
   int beam_direction = 1;        ///< +1 when the beam travels towards +z of the tracker frame, -1 towards -z
   double fiducial_radius = 0.0;  ///< mm, about the axis: where efficiency is quoted
-  double active_radius = 0.0;    ///< mm, about the axis of a station: nothing beyond it can be real
+  double active_radius = 0.0;    ///< mm, about the axis of a station: nothing beyond it can be real; has to be given
   material gas;                  ///< what fills the space between the stations
   std::vector<station> stations;
 };
 
-/// Throws std::invalid_argument, naming the planes, unless stations and their planes are listed in order of growing z.
-inline void check_order(const tracker& t) {
-  const station* last_station = nullptr;
+/// Throws std::invalid_argument, naming the culprit, where nothing could be reconstructed: no active radius, a plane without channels, planes that are not
+/// listed in order of growing z.
+inline void check(const tracker& t) {
+  const auto refuse = [&t](const std::string& why) { detail::refuse<std::invalid_argument>("tracker " + (t.name.empty() ? std::to_string(t.id) : t.name) + ": " + why); };
+  if (!(t.active_radius > 0.0)) refuse("active_radius must be above zero: nothing beyond it is taken for real");
+  std::string last;
   double last_z = 0.0;
-  std::size_t last_plane = 0;
   for (const station& s : t.stations) {
     for (std::size_t i = 0; i < s.planes.size(); ++i) {
-      const double z = s.in_tracker.origin.z() + s.planes[i].z_measured;
-      if (last_station != nullptr && !(z > last_z)) {
-        const auto place = [](int station, std::size_t plane, double at) {
-          return "plane " + std::to_string(plane) + " of station " + std::to_string(station) + ", at z = " + std::to_string(at) + " mm,";
-        };
-        detail::refuse<std::invalid_argument>("tracker " + (t.name.empty() ? std::to_string(t.id) : t.name) + ": " + place(s.id, i, z) + " must lie behind " +
-                                              place(last_station->id, last_plane, last_z) + " which is listed before it");
-      }
-      last_station = &s;
+      const plane& p = s.planes[i];
+      const double z = s.in_tracker.origin.z() + p.z_measured;
+      const std::string here = "plane " + std::to_string(i) + " of station " + std::to_string(s.id);
+      if (p.channels <= 0 || !(p.channel_width > 0.0)) refuse(here + " has no channels, or none of a width above zero");
+      if (!last.empty() && !(z > last_z))
+        refuse(here + ", at z = " + std::to_string(z) + " mm, must lie behind " + last + ", at z = " + std::to_string(last_z) + " mm, which is listed before it");
+      last = here;
       last_z = z;
-      last_plane = i;
     }
   }
 }

@@ -16,11 +16,11 @@ namespace scifi {
 /// What a search needs to know of a tracker and of the tracks in it.
 class search_setting {
  public:
-  /// Throws std::invalid_argument where the planes of the tracker are not in order of growing z.
+  /// Throws std::invalid_argument where check(tracker) does.
   template <class Scattering>
   search_setting(const tracker& where, const track_finder_options& assumed, const particle& hypothesis, const Scattering& matter)
       : id(where.id), travel(where.beam_direction), scattering(where, hypothesis, matter), options(assumed) {
-    check_order(where);
+    check(where);
     std::vector<double> z;
     for (const station& s : where.stations) {
       stations.push_back(s.id);

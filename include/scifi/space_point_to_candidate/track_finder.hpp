@@ -28,7 +28,7 @@ namespace scifi {
 /// Where points crowd, sure_search goes before all that, twice, and its candidates are chosen as a set (select_jointly).
 class track_finder {
  public:
-  /// Throws std::invalid_argument where the options make no sense, or the planes of the tracker are not in order of growing z.
+  /// Throws std::invalid_argument where the options make no sense, or check(tracker) refuses the tracker.
   template <class Scattering>
   track_finder(const tracker& where, const track_finder_options& options, const particle& hypothesis, const Scattering& scattering)
       : setting_(where, checked(options), hypothesis, scattering) {}

@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include <scifi/core/refuse.hpp>
+#include <scifi/core/units.hpp>
 #include <scifi/track_model/q_over_pz_prior.hpp>
 
 namespace scifi {
@@ -38,6 +39,8 @@ struct track_finder_options {
   void check() const {
     const auto positive = [](double x) { return x > 0.0 && std::isfinite(x); };
     if (!std::isfinite(field)) detail::refuse<std::invalid_argument>("track_finder_options: the field must be finite");
+    if (std::abs(field) > 100.0 * units::tesla)
+      detail::refuse<std::invalid_argument>("track_finder_options: the field is beyond 100 T; it is given in (MeV/c)/(e mm), 3 T is 3.0 * units::tesla");
     if (!positive(line_momentum)) detail::refuse<std::invalid_argument>("track_finder_options: the momentum of straight tracks must be above zero");
     if (!positive(largest_slope)) detail::refuse<std::invalid_argument>("track_finder_options: the largest slope must be above zero");
     if (!positive(smallest_pz)) detail::refuse<std::invalid_argument>("track_finder_options: the smallest pz must be above zero");

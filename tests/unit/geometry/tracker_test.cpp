@@ -57,11 +57,10 @@ TEST_CASE("a channel whose tracker, station or plane does not exist has no plane
   CHECK(d.find_plane({3, 4, -1, 0}) == nullptr);
 }
 
-TEST_CASE("a tracker whose planes are not in order of growing z is refused by their names", "[geometry]") {
-  const auto message = [](const scifi::tracker& t) { return scifi::test::message_of<std::invalid_argument>([&t] { scifi::check_order(t); }); };
+TEST_CASE("a tracker in which nothing can be found is refused by the name of what is wrong", "[geometry]") {
+  const auto message = [](const scifi::tracker& t) { return scifi::test::message_of<std::invalid_argument>([&t] { scifi::check(t); }); };
   const scifi::tracker good = scifi::mice::trackers().trackers[scifi::mice::downstream];
   CHECK(message(good) == "(no error)");
-  CHECK(message(scifi::tracker{}) == "(no error)");
 
   scifi::tracker swapped = good;
   std::swap(swapped.stations[1], swapped.stations[3]);
@@ -73,5 +72,14 @@ TEST_CASE("a tracker whose planes are not in order of growing z is refused by th
   CHECK(message(metres).find("plane 0 of station 2") != std::string::npos);
   scifi::tracker unknown = good;
   unknown.stations[0].in_tracker.origin.z() = std::numeric_limits<double>::quiet_NaN();
+  scifi::tracker pointlike = good;
+  pointlike.active_radius = 0.0;
+  CHECK(message(pointlike).find("tracker TKD: active_radius must be above zero") == 0);
+  scifi::tracker blind = good;
+  blind.stations[2].planes[1].channels = 0;
+  CHECK(message(blind) == "tracker TKD: plane 1 of station 3 has no channels, or none of a width above zero");
+  blind = good;
+  blind.stations[0].planes[0].channel_width = 0.0;
+  CHECK(message(blind).find("plane 0 of station 1 has no channels") != std::string::npos);
   CHECK(message(unknown).find("plane 1 of station 1, at z = nan mm") != std::string::npos);
 }
