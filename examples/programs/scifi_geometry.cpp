@@ -11,6 +11,7 @@
 #include <CLI/CLI.hpp>
 
 #include <scifi/core/units.hpp>
+#include <scifi/geometry/mice.hpp>
 #include <scifi/io/any_geometry.hpp>
 #include <scifi/io/atomic_file.hpp>
 #include <scifi/io/geometry_svg.hpp>
@@ -32,7 +33,7 @@ bool same_file(const fs::path& a, const fs::path& b) {
 
 void check(const options& o) {
   for (const std::string& out : {o.json, o.svg})
-    if (!out.empty() && same_file(o.geometry, out)) throw std::invalid_argument(out + ": would overwrite what is read");
+    if (!out.empty() && !o.geometry.empty() && same_file(o.geometry, out)) throw std::invalid_argument(out + ": would overwrite what is read");
   if (!o.json.empty() && !o.svg.empty() && same_file(o.json, o.svg)) throw std::invalid_argument("--json and --svg: the same file");
 }
 
@@ -55,7 +56,7 @@ bool same_planes(const scifi::station& a, const scifi::station& b) {
   if (a.planes.size() != b.planes.size()) return false;
   const auto same_sheets = [](const scifi::slab_stack<4>& x, const scifi::slab_stack<4>& y) {
     bool same = x.size() == y.size();
-    for (std::size_t i = 0; same && i < x.size(); ++i) same = x[i].thickness == y[i].thickness && x[i].medium.name == y[i].medium.name;
+    for (std::size_t i = 0; same && i < x.size(); ++i) same = x[i].thickness == y[i].thickness && x[i].medium == y[i].medium;
     return same;
   };
   for (std::size_t i = 0; i < a.planes.size(); ++i) {
@@ -98,10 +99,18 @@ void write(const std::string& path, const std::string& content) {
   file.commit();
 }
 
+/// What the programs take where no geometry is given.
+scifi::any_geometry surveyed() {
+  scifi::any_geometry g;
+  g.detector = scifi::mice::trackers();
+  g.field.resize(g.detector.trackers.size());
+  return g;
+}
+
 void run(const options& o) {
   check(o);
-  const scifi::any_geometry g = scifi::read_any_geometry(o.geometry);
-  fmt::print("{}   units: mm, degree, tesla; stations in the tracker frame, planes in the station frame\n", o.geometry);
+  const scifi::any_geometry g = o.geometry.empty() ? surveyed() : scifi::read_any_geometry(o.geometry);
+  fmt::print("{}   units: mm, degree, tesla; stations in the tracker frame, planes in the station frame\n", o.geometry.empty() ? "MICE trackers as surveyed" : o.geometry);
   for (std::size_t i = 0; i < g.detector.trackers.size(); ++i)
     print_tracker(g.detector.trackers[i], g.field[i] ? fmt::format("{:g} T", *g.field[i] / scifi::units::tesla) : "not given");
   const scifi::fibre_doublet& f = g.fibre;
@@ -117,7 +126,7 @@ void run(const options& o) {
 int main(int argc, char** argv) {
   options o;
   CLI::App app{"Prints a geometry of trackers as a table, converts it to JSON and draws it."};
-  app.add_option("GEOMETRY", o.geometry, "geometry in JSON (.json) or MiceModules (.dat); may be gzip")->required();
+  app.add_option("GEOMETRY", o.geometry, "geometry in JSON (.json) or MiceModules (.dat), may be gzip; the MICE trackers unless given");
   app.add_option("--json", o.json, "write the geometry as JSON to this file");
   app.add_option("--svg", o.svg, "draw the geometry to this file: planes from the front, stations from the side");
   return run_program("scifi-geometry", app, argc, argv, [&o] { run(o); });

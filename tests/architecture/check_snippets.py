@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MPL-2.0
-"""Checks that the C++ shown in the documents is the C++ of the examples, which are compiled and run.
+"""Checks that the C++ and JSON shown in the documents are those of the examples, which the tests compile, run or read.
 
 Usage: check_snippets.py ROOT [--write]
-A block is preceded by a line `<!-- snippet: FILE NAME -->`; in FILE the region stands between two lines `// [NAME]`.
+A block is preceded by a line `<!-- snippet: FILE NAME -->`; in FILE the region stands between two lines `// [NAME]`. Without NAME it is the whole FILE.
 With --write the documents are brought up to date instead.
 """
 
@@ -12,11 +12,13 @@ import re
 import sys
 import textwrap
 
-BLOCK = re.compile(r"(?P<head>(?:<!-- snippet: (?P<file>\S+) (?P<name>\S+) -->\n)?)```cpp\n(?P<code>.*?)^```$", re.M | re.S)
+BLOCK = re.compile(r"(?P<head>(?:<!-- snippet: (?P<file>\S+)(?: (?P<name>\S+))? -->\n)?)```(?P<language>cpp|json)\n(?P<code>.*?)^```$", re.M | re.S)
 
 
 def region(path, name):
-    """The lines between two marks; None unless there are exactly two."""
+    """The lines between two marks, or the whole file; None unless there are exactly two."""
+    if name is None:
+        return path.read_text(encoding="utf-8")
     lines = path.read_text(encoding="utf-8").splitlines()
     marks = [i for i, line in enumerate(lines) if line.strip() == f"// [{name}]"]
     if len(marks) != 2:
@@ -33,7 +35,7 @@ def main():
         blocks += 1
         line = text.count("\n", 0, match.start()) + 1
         if not match["head"]:
-            problems.append(f"{document}:{line}: C++ without a line `<!-- snippet: FILE NAME -->` before it")
+            problems.append(f"{document}:{line}: code without a line `<!-- snippet: FILE NAME -->` before it")
             return match[0]
         source = root / match["file"]
         code = region(source, match["name"]) if source.exists() else None
@@ -42,7 +44,7 @@ def main():
             return match[0]
         if code != match["code"] and not write:
             problems.append(f"{document}:{line}: differs from region [{match['name']}] of {match['file']}")
-        return f"{match['head']}```cpp\n{code}```"
+        return f"{match['head']}```{match['language']}\n{code}```"
 
     for path in [root / "README.md", root / "CONTRIBUTING.md", *sorted((root / "docs").rglob("*.md"))]:
         if not path.exists():
@@ -51,7 +53,7 @@ def main():
         updated = BLOCK.sub(check, text)
         if write and updated != text:
             path.write_text(updated, encoding="utf-8")
-    print("\n".join(problems + [f"{blocks} blocks of C++, {len(problems)} problems"]))
+    print("\n".join(problems + [f"{blocks} blocks of code, {len(problems)} problems"]))
     return 1 if problems else 0
 
 

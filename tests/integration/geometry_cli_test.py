@@ -8,6 +8,7 @@ SCIFI_SHARED_DATA in the environment names the folder of external data; tests th
 """
 
 import json
+import math
 import os
 import pathlib
 import unittest
@@ -106,10 +107,39 @@ class Geometry(programs.InAFolder):
         source = self.write("a.dat", geometry())
         for options, words in (((self.folder / "none.dat",), "none.dat: cannot be opened"), ((source, "--svg", source), "would overwrite what is read"),
                                ((source, "--svg", self.folder / "x", "--json", self.folder / "x"), "the same file"),
-                               ((source, "--svg", self.folder / "no" / "a.svg"), "cannot be written"), ((), "GEOMETRY")):
+                               ((source, "--svg", self.folder / "no" / "a.svg"), "cannot be written")):
             done = self.run_program("scifi-geometry", *options)
             self.assertEqual(done.returncode, 2, done.stderr)
             self.assertIn(words, done.stderr)
+
+    def test_without_a_geometry_it_shows_the_one_that_the_programs_take(self):
+        out = self.folder / "mice.json"
+        done = self.run_program("scifi-geometry", "--json", out)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("MICE trackers as surveyed", done.stdout)
+        self.assertEqual([len(t["stations"]) for t in json.loads(out.read_text())["trackers"]], [5, 5])
+
+    def test_a_telescope_of_silicon_is_a_geometry_in_which_tracks_are_found(self):
+        telescope = pathlib.Path(__file__).resolve().parents[2] / "examples" / "telescope.json"
+        done = self.run_program("scifi-geometry", telescope)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        for words in ("telescope", "geometry file 0.1500", "0.00320", "768"):
+            self.assertIn(words, done.stdout)
+        # x = 2.5 mm + 10 mrad z, y = -1 mm: the strips nearest to it, of the second station turned by 0.3 degrees and all where they stand.
+        digits = "event,tracker,station,plane,channel,npe\n"
+        for station, (x0, y0, z, turn) in enumerate(((0, 0, 0, 0), (0.03, -0.02, 150, 0.3), (0.06, -0.04, 300, 0), (0.09, -0.06, 450, 0)), 1):
+            x, y, turn = 2.5 + 0.01 * z - x0, -1.0 - y0, math.radians(turn)
+            for plane, alpha in enumerate((x * math.cos(turn) + y * math.sin(turn), y * math.cos(turn) - x * math.sin(turn))):
+                digits += f"0,0,{station},{plane},{round(383.5 - alpha / 0.05)},20\n"
+        done = self.run_program("scifi-reconstruct", self.write("d.csv", digits), "--geometry", telescope, "--field", 0, "--momentum", 5000, "--output", self.folder / "t.csv")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        (track,) = programs.rows(self.folder / "t.csv")
+        strip = 0.05 / math.sqrt(12)
+        self.assertEqual((track["planes"], track["ndf"]), ("8", "4"))
+        self.assertLess(abs(float(track["x_mm"]) - 2.5), 3 * strip)
+        self.assertLess(abs(float(track["y_mm"]) + 1.0), 3 * strip)
+        self.assertLess(abs(float(track["px_MeV"]) / float(track["pz_MeV"]) - 0.01), 3 * strip / 300)
+        self.assertLess(float(track["sigma_x_mm"]), strip)
 
     @unittest.skipUnless(SHARED, "no external data")
     def test_the_experiment_s_geometry_is_converted(self):

@@ -24,7 +24,7 @@ inline void add_to(slab_stack<4>& stack, const slab& more) {
   slab_stack<4> out;
   bool merged = false;
   for (slab s : stack) {
-    if (!merged && s.medium.name == more.medium.name && s.layer_radiation_lengths == more.layer_radiation_lengths) {
+    if (!merged && s.medium == more.medium && s.layer_radiation_lengths == more.layer_radiation_lengths) {
       s.thickness += more.thickness;
       merged = true;
     }

@@ -25,7 +25,7 @@ class material_names {
  public:
   [[nodiscard]] std::string name_of(const material& m) {
     for (const auto& [name, known] : media_)
-      if (same(known, m)) return name;
+      if (known == m) return name;
     std::string name(m.name);
     for (int n = 2; name.empty() || taken(name); ++n) name = std::string(m.name) + " (" + std::to_string(n) + ')';
     media_.emplace_back(name, m);
@@ -51,13 +51,6 @@ class material_names {
     for (const auto& [other, medium] : media_)
       if (other == name) return true;
     return false;
-  }
-  [[nodiscard]] static bool same(const material& a, const material& b) {
-    const auto& x = a.density_effect;
-    const auto& y = b.density_effect;
-    return a.name == b.name && a.density == b.density && a.radiation_length == b.radiation_length && a.z_over_a == b.z_over_a &&
-           a.mean_excitation_energy == b.mean_excitation_energy && x.a == y.a && x.m == y.m && x.x0 == y.x0 && x.x1 == y.x1 && x.c == y.c &&
-           x.delta0 == y.delta0;
   }
 
   std::vector<std::pair<std::string, material>> media_;

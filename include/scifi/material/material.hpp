@@ -11,6 +11,7 @@ struct material {
   /// Parameters of the density effect, PDG 2024 eq. 34.7: delta(log10(beta gamma)); `c` is the positive number C-bar of the tables.
   struct sternheimer {
     double a, m, x0, x1, c, delta0;
+    friend constexpr bool operator==(const sternheimer&, const sternheimer&) = default;
   };
 
   std::string_view name;
@@ -19,6 +20,9 @@ struct material {
   double z_over_a;                ///< mol/g
   double mean_excitation_energy;  ///< MeV
   sternheimer density_effect;
+
+  /// By name and every number: media that a file describes may share a name.
+  friend constexpr bool operator==(const material&, const material&) = default;
 };
 
 }  // namespace scifi

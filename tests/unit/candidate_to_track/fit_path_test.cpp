@@ -98,6 +98,12 @@ TEST_CASE("slabs of one medium and layer are put together, others are kept apart
   CHECK(stack[0].thickness == Approx(0.3));
   CHECK(stack[1].thickness == 0.3);
   CHECK(stack[2].thickness == 0.4);
+  // Two media of one name, as a geometry file may describe them.
+  material denser = materials::mylar;
+  denser.density *= 2.0;
+  add_to(stack, {denser, 0.5, 0.02});
+  REQUIRE(stack.size() == 4);
+  CHECK(stack[3].thickness == 0.5);
 }
 
 TEST_CASE("a tracker without stations has no way", "[candidate_to_track]") {
