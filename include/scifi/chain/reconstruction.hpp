@@ -166,6 +166,8 @@ using standard_reconstruction = reconstruction<cluster_finder<fibre_resolution>,
 /// The standard chain for trackers of scintillating fibres, with `flight_in(tracker)`, a tracker_flight, in each tracker; `options.field` is not asked.
 template <class FlightIn>
 [[nodiscard]] auto make_reconstruction(const detector& where, const reconstruction_options& options, const FlightIn& flight_in) {
+  static_assert(requires(const tracker& t) { flight_in(t).flight; flight_in(t).field; },
+                "scifi: flight_in(tracker) must return a tracker_flight: the propagator of slope_state there, and the mean of Bz");
   const highland_scattering scattering;
   // Of the mean loss: pz is known much worse than losses fluctuate, so that the tail of the losses moves the middle of its errors as it moves their mean.
   const mean_energy_loss loss;
