@@ -60,11 +60,18 @@ template <class Propagator, class Noise, class Scalar, int N, class Step, class 
   }
 }
 
-/// The same written where it is to stay, which is not where x is. A function of its own: in line with the filter the two would crowd each other's registers.
+/// A step of a model that writes its results where they are to stay: a function of its own, for in line with the filter the two would crowd each other's registers.
 template <class Propagator, class Noise, class Scalar, int N, class Step>
-[[gnu::noinline]] void set_step(const Propagator& p, const Noise& q, const vector<Scalar, N>& x, const Step& step, vector<Scalar, N>& end, matrix<Scalar, N, N>& jacobian, matrix<Scalar, N, N>& noise) {
+[[gnu::noinline]] void take_step(const Propagator& p, const Noise& q, const vector<Scalar, N>& x, const Step& step, const propagated_view<Scalar, N>& end, matrix<Scalar, N, N>& noise) {
+  q.covariance_into(noise, x, step, p.propagate_into(end, x, step));
+}
+
+/// The end of a step from x, F and Q, written where they are to stay, which is not where x is.
+template <class Propagator, class Noise, class Scalar, int N, class Step>
+[[gnu::always_inline]] inline void set_step(const Propagator& p, const Noise& q, const vector<Scalar, N>& x, const Step& step, vector<Scalar, N>& end, matrix<Scalar, N, N>& jacobian,
+                                            matrix<Scalar, N, N>& noise) {
   if constexpr (models_in_place<Propagator, Noise, Scalar, N, Step>) {
-    q.covariance_into(noise, x, step, p.propagate_into(propagated_view<Scalar, N>{end, jacobian}, x, step));
+    take_step(p, q, x, step, propagated_view<Scalar, N>{end, jacobian}, noise);
   } else {
     const auto moved = propagate_fully(p, x, step);
     copy_columns<Scalar, N, N>(jacobian, moved.jacobian);
