@@ -7,11 +7,28 @@
 
 namespace scifi {
 
+namespace detail {
+
+template <class Scalar>
+struct one_lane {
+  using type = Scalar;
+};
+template <class T, int Lanes>
+struct one_lane<pack<T, Lanes>> {
+  using type = T;
+};
+
+}  // namespace detail
+
 /// How many tracks a scalar stands for: the lanes of a pack, one for any other number.
 template <class Scalar>
 inline constexpr int lane_count = 1;
 template <class T, int Lanes>
 inline constexpr int lane_count<pack<T, Lanes>> = Lanes;
+
+/// The type of the number in one lane.
+template <class Scalar>
+using lane_type = typename detail::one_lane<Scalar>::type;
 
 /// The number, or truth value, in one lane; of a plain one itself.
 template <class T>

@@ -30,13 +30,15 @@ struct energy_loss {
 };
 
 /// What the loss in a slab about Landau's mode takes of the slab and the charge: all that does not depend on the momentum.
-struct landau_slab {
+template <class DensityEffect>
+struct basic_landau_slab {
   double xi = 0.0;        ///< MeV, for beta = 1 along the normal; zero where nothing is lost
   double log_mode = 0.0;  ///< constants under the logarithms of the mode, gathered, with the offset from it
   double log_mean = 0.0;  ///< the same of the mean
   double mean_over_mode = 1.0;
-  material::sternheimer density_effect{};
+  DensityEffect density_effect{};
 };
+using landau_slab = basic_landau_slab<material::sternheimer>;
 
 /// Prepares the mode plus `offset` xi of the loss in `layers` equal layers, the share of one slab.
 [[nodiscard]] inline landau_slab landau_slab_of(const particle& hypothesis, const slab& s, double layers, double offset) {
@@ -66,7 +68,7 @@ template <scalar Scalar, class Slabs>
   const Scalar of_mode = log_u2 + c.log_path_over_beta_squared;
 
   energy_loss<Scalar> sum{zero, zero, zero};
-  for (const landau_slab& s : slabs) {
+  for (const auto& s : slabs) {
     if (s.xi == 0.0) continue;
     const density_effect_by_logarithm<Scalar> delta = density_effect_at_log(log_beta_gamma, s.density_effect);
     Scalar bracket = of_mode + Scalar(s.log_mode);
@@ -99,9 +101,10 @@ template <scalar Scalar, class Slabs>
 template <std::size_t Capacity>
 class prepared_landau_loss {
  public:
-  prepared_landau_loss(const particle& hypothesis, const inline_vector<landau_slab, Capacity>& slabs) : hypothesis_(hypothesis), slabs_(slabs) {
+  prepared_landau_loss(const particle& hypothesis, const inline_vector<landau_slab, Capacity>& slabs) : hypothesis_(hypothesis) {
     for (const landau_slab& s : slabs) {
       if (s.xi == 0.0) continue;
+      slabs_.push_back({s.xi, s.log_mode, s.log_mean, s.mean_over_mode, prepared_density_effect(s.density_effect)});
       xi_ += s.xi;
       least_mean_over_mode_ = std::min(least_mean_over_mode_, s.mean_over_mode);
     }
@@ -146,7 +149,7 @@ class prepared_landau_loss {
   }
 
   particle hypothesis_;
-  inline_vector<landau_slab, Capacity> slabs_;
+  inline_vector<basic_landau_slab<prepared_density_effect>, Capacity> slabs_;
   double xi_ = 0.0;
   double least_mean_over_mode_ = std::numeric_limits<double>::max();
   octave_polynomials brackets_;

@@ -67,13 +67,25 @@ struct material_noise {
       }
     }();
 
-    if (step.start.empty()) q.setZero();
-    else carry_start(q, start, moved.jacobian, crossing, widths_of(crossing, step.start));
-    const auto add = [&q](int i, int j, const Scalar& value) {
-      q(i, j) += value;
-      q(j, i) = q(i, j);
+    if (step.start.empty()) {
+      add_end<false>(q, step, moved.state, crossing);
+    } else {
+      carry_start(q, start, moved.jacobian, crossing, widths_of(crossing, step.start));
+      add_end<true>(q, step, moved.state, crossing);
+    }
+  }
+
+ private:
+  /// What gap and finish give, added to q, or its first contents, so that no entry is written twice.
+  template <bool Add, class Scalar, class Leg>
+  [[gnu::always_inline]] void add_end(matrix<Scalar, 5, 5>& q, const Leg& step, const vector<Scalar, 5>& at, const crossing_particle<Scalar>& crossing) const {
+    using s = slope_state;
+    const auto add = [&q](int i, int j, const Scalar& value) __attribute__((always_inline)) {
+      const Scalar sum = Add ? Scalar(q(i, j) + value) : value;
+      q(i, j) = sum;
+      q(j, i) = sum;
     };
-    const kick<Scalar> c = kick_at(moved.state);
+    const kick<Scalar> c = kick_at(at);
     widths<Scalar> all{Scalar(0.0), Scalar(0.0)};
     if (!step.finish.empty()) all = widths_of(crossing, step.finish);
     if (!step.gap.empty()) {
@@ -91,16 +103,19 @@ struct material_noise {
       add(s::y, s::ty, mixed * c.ty_ty);
       add(s::x, s::q_over_pz, mixed * c.tx_k);
       add(s::y, s::q_over_pz, mixed * c.ty_k);
+    } else if constexpr (!Add) {
+      for (int j = 0; j < s::dimension; ++j)
+        for (int i = 0; i < s::dimension; ++i)
+          if (i == s::x || i == s::y || j == s::x || j == s::y) q(i, j) = Scalar(0.0);
     }
     add(s::tx, s::tx, all.angle * c.tx_tx);
     add(s::tx, s::ty, all.angle * c.tx_ty);
     add(s::ty, s::ty, all.angle * c.ty_ty);
     add(s::tx, s::q_over_pz, all.angle * c.tx_k);
     add(s::ty, s::q_over_pz, all.angle * c.ty_k);
-    add(s::q_over_pz, s::q_over_pz, all.angle * c.k_k + lost(moved.state, crossing, all.energy));
+    add(s::q_over_pz, s::q_over_pz, all.angle * c.k_k + lost(at, crossing, all.energy));
   }
 
- private:
   /// Variances of the projected angle (rad^2) and of the energy (MeV^2).
   template <class Scalar>
   struct widths {

@@ -8,6 +8,7 @@ using namespace scifi;
 TEST_CASE("lanes are read and set alike in numbers, packs and masks", "[core]") {
   static_assert(lane_count<double> == 1);
   static_assert(lane_count<pack<float, 8>> == 8);
+  static_assert(std::is_same_v<lane_type<double>, double> && std::is_same_v<lane_type<pack<float, 8>>, float>);
   double number = 1.0;
   set_lane(number, 0, 2.0);
   CHECK(lane_of(number, 0) == 2.0);

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "support/catch.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <utility>
 
+#include <scifi/core/pack_math.hpp>
 #include <scifi/material/density_effect.hpp>
 #include <scifi/material/materials.hpp>
 
@@ -45,6 +47,32 @@ TEST_CASE("The three branches meet", "[material]") {
       CHECK(std::abs(above - below) < 3e-4);  // a is tabulated to 1e-5 and multiplies (x1 - x0)^m up to 40
     }
   }
+}
+
+TEST_CASE("The prepared density effect is that of the formula, for numbers and in lanes", "[material]") {
+  for (const material& m : media) {
+    INFO(m.name);
+    const auto& s = m.density_effect;
+    const prepared_density_effect prepared(s);
+    double worst = 0.0, worst_of_floats = 0.0;
+    for (double x = s.x0 - 0.2; x < s.x1 + 0.2; x += 0.0037) {  // below, curved within the series and beyond, above
+      const double log_beta_gamma = x * std::log(10.0);
+      const auto expected = density_effect_at_log(log_beta_gamma, s);
+      const auto alone = density_effect_at_log(log_beta_gamma, prepared);
+      pack<double> several(log_beta_gamma);
+      several.set(1, s.x0 * 0.5);  // a neighbour in another branch
+      const auto in_lane = density_effect_at_log(several, prepared);
+      const auto of_float = density_effect_at_log(pack<float>(static_cast<float>(log_beta_gamma)), prepared);
+      const double scale = 2.0 * std::abs(log_beta_gamma) + s.c;  // of the terms that the value is a difference of
+      worst = std::max({worst, std::abs(alone.value - expected.value) / scale, std::abs(alone.d_value_d_log - expected.d_value_d_log),
+                        std::abs(in_lane.value[0] - expected.value) / scale, std::abs(in_lane.d_value_d_log[0] - expected.d_value_d_log)});
+      if (std::abs(x - s.x0) > 1e-5 && std::abs(x - s.x1) > 1e-5)
+        worst_of_floats = std::max({worst_of_floats, std::abs(static_cast<double>(of_float.value[0]) - expected.value) / scale});
+    }
+    CHECK(worst < 2e-14);
+    CHECK(worst_of_floats < 1e-6);
+  }
+  CHECK(density_effect_at_log(1.0, prepared_density_effect{}).value == density_effect_at_log(1.0, material::sternheimer{}).value);
 }
 
 TEST_CASE("Only the conductor has a density effect below x0", "[material]") {
