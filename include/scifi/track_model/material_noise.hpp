@@ -67,23 +67,18 @@ struct material_noise {
       }
     }();
 
-    if (step.start.empty()) {
-      add_end<false>(q, step, moved.state, crossing);
-    } else {
-      carry_start(q, start, moved.jacobian, crossing, widths_of(crossing, step.start));
-      add_end<true>(q, step, moved.state, crossing);
-    }
+    set_end(q, step, moved.state, crossing);
+    if (!step.start.empty()) carry_start(q, start, moved.jacobian, crossing, widths_of(crossing, step.start));
   }
 
  private:
-  /// What gap and finish give, added to q, or its first contents, so that no entry is written twice.
-  template <bool Add, class Scalar, class Leg>
-  [[gnu::always_inline]] void add_end(matrix<Scalar, 5, 5>& q, const Leg& step, const vector<Scalar, 5>& at, const crossing_particle<Scalar>& crossing) const {
+  /// What gap and finish give.
+  template <class Scalar, class Leg>
+  [[gnu::always_inline]] void set_end(matrix<Scalar, 5, 5>& q, const Leg& step, const vector<Scalar, 5>& at, const crossing_particle<Scalar>& crossing) const {
     using s = slope_state;
-    const auto add = [&q](int i, int j, const Scalar& value) __attribute__((always_inline)) {
-      const Scalar sum = Add ? Scalar(q(i, j) + value) : value;
-      q(i, j) = sum;
-      q(j, i) = sum;
+    const auto set = [&q](int i, int j, const Scalar& value) __attribute__((always_inline)) {
+      q(i, j) = value;
+      q(j, i) = value;
     };
     const kick<Scalar> c = kick_at(at);
     widths<Scalar> all{Scalar(0.0), Scalar(0.0)};
@@ -94,26 +89,26 @@ struct material_noise {
       all.energy += gap.energy;
       const Scalar mixed = gap.angle * Scalar(0.5 * step.dz);
       const Scalar positions = gap.angle * Scalar(step.dz * step.dz / 3.0);
-      add(s::x, s::x, positions * c.tx_tx);
-      add(s::x, s::y, positions * c.tx_ty);
-      add(s::y, s::y, positions * c.ty_ty);
-      add(s::x, s::tx, mixed * c.tx_tx);
-      add(s::x, s::ty, mixed * c.tx_ty);
-      add(s::tx, s::y, mixed * c.tx_ty);
-      add(s::y, s::ty, mixed * c.ty_ty);
-      add(s::x, s::q_over_pz, mixed * c.tx_k);
-      add(s::y, s::q_over_pz, mixed * c.ty_k);
-    } else if constexpr (!Add) {
+      set(s::x, s::x, positions * c.tx_tx);
+      set(s::x, s::y, positions * c.tx_ty);
+      set(s::y, s::y, positions * c.ty_ty);
+      set(s::x, s::tx, mixed * c.tx_tx);
+      set(s::x, s::ty, mixed * c.tx_ty);
+      set(s::tx, s::y, mixed * c.tx_ty);
+      set(s::y, s::ty, mixed * c.ty_ty);
+      set(s::x, s::q_over_pz, mixed * c.tx_k);
+      set(s::y, s::q_over_pz, mixed * c.ty_k);
+    } else {
       for (int j = 0; j < s::dimension; ++j)
         for (int i = 0; i < s::dimension; ++i)
           if (i == s::x || i == s::y || j == s::x || j == s::y) q(i, j) = Scalar(0.0);
     }
-    add(s::tx, s::tx, all.angle * c.tx_tx);
-    add(s::tx, s::ty, all.angle * c.tx_ty);
-    add(s::ty, s::ty, all.angle * c.ty_ty);
-    add(s::tx, s::q_over_pz, all.angle * c.tx_k);
-    add(s::ty, s::q_over_pz, all.angle * c.ty_k);
-    add(s::q_over_pz, s::q_over_pz, all.angle * c.k_k + lost(at, crossing, all.energy));
+    set(s::tx, s::tx, all.angle * c.tx_tx);
+    set(s::tx, s::ty, all.angle * c.tx_ty);
+    set(s::ty, s::ty, all.angle * c.ty_ty);
+    set(s::tx, s::q_over_pz, all.angle * c.tx_k);
+    set(s::ty, s::q_over_pz, all.angle * c.ty_k);
+    set(s::q_over_pz, s::q_over_pz, all.angle * c.k_k + lost(at, crossing, all.energy));
   }
 
   /// Variances of the projected angle (rad^2) and of the energy (MeV^2).
@@ -151,7 +146,7 @@ struct material_noise {
     return energy * k * k * crossing.per_p_beta_squared;
   }
 
-  /// q = F C F' for the kick C at the start, which has only the rows and columns tx, ty, q/pz.
+  /// Adds F C F' for the kick C at the start, which has only the rows and columns tx, ty, q/pz.
   template <class Scalar>
   [[gnu::always_inline]] static void carry_start(matrix<Scalar, 5, 5>& q, const vector<Scalar, 5>& start, const matrix<Scalar, 5, 5>& jacobian, const crossing_particle<Scalar>& crossing, const widths<Scalar>& w) {
     using s = slope_state;
@@ -164,7 +159,7 @@ struct material_noise {
     f.col(0) = jacobian.col(s::tx);
     f.col(1) = jacobian.col(s::ty);
     f.col(2) = jacobian.col(s::q_over_pz);
-    kalman::detail::set_similarity<Scalar, 5, 3>(q, f, at_start, matrix<Scalar, 5, 5>::Zero());
+    kalman::detail::set_similarity<Scalar, 5, 3>(q, f, at_start, q);
   }
 };
 
