@@ -61,7 +61,7 @@ template <class T, int Lanes>
 
 /// Natural logarithm of a positive normal number; NaN for a negative one or NaN, -infinity for zero and numbers below the smallest normal one, infinity for infinity.
 template <class T, int Lanes>
-[[nodiscard]] inline pack<T, Lanes> log(const pack<T, Lanes>& x) {
+[[nodiscard, gnu::always_inline]] inline pack<T, Lanes> log(const pack<T, Lanes>& x) {
   using scalar = pack<T, Lanes>;
   using bits = typename pack_mask<T, Lanes>::vector_type;
   using vec = typename scalar::vector_type;

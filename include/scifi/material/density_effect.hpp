@@ -76,7 +76,7 @@ template <scalar Scalar, class Mask>
 /// The rounding of the tabulated parameters leaves steps below 3e-4 at x0.
 /// The parameters are Sternheimer's, or prepared.
 template <scalar Scalar, class Parameters>
-[[nodiscard]] density_effect_by_logarithm<Scalar> density_effect_at_log(const Scalar& log_beta_gamma, const Parameters& s) {
+[[nodiscard, gnu::always_inline]] inline density_effect_by_logarithm<Scalar> density_effect_at_log(const Scalar& log_beta_gamma, const Parameters& s) {
   using std::exp;
   constexpr double ln10 = std::numbers::ln10;
   const Scalar x = log_beta_gamma * Scalar(1.0 / ln10);
