@@ -38,7 +38,7 @@ def fails(options, include, source, scratch):
     shared = [source.parent / f"{name}.cpp" for name in re.findall(r'^#include "(?:unit/\w+/)?(\w+)\.hpp"', source.read_text(encoding="utf-8"), re.MULTILINE)]
     command = [options.compiler, "-std=c++20", "-O1", "-I", include, "-I", ROOT / "tests", "-isystem", options.eigen,
                f'-DSCIFI_TEST_REFERENCE="{ROOT}/tests/reference"', '-DSCIFI_SHARED_DATA_DEFAULT=""',
-               source, *(s for s in shared if s.exists()), options.main, "-o", program, "-lz", "-lpthread"]
+               source, *(s for s in shared if s.exists()), options.main, "-o", program, "-lz", "-lpthread", *(["-lsqlite3"] if source.parent.name == "conditions" else [])]
     if subprocess.run(command, capture_output=True).returncode:
         return True
     try:
