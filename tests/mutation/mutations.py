@@ -76,6 +76,8 @@ MUTATIONS = [
     # pattern recognition: the turn of chords and its derivative, errors that add up, bounds of lists, what a shared cluster costs
     ("arc/chord_turn.hpp", "-length * std::sin(w * half())", "length * std::sin(w * half())"),
     ("arc/chord_turn.hpp", "value{conjugate(f), {-slope.x, slope.y}}", "value{conjugate(f), {slope.x, -slope.y}}"),
+    ("arc/chord_turn.hpp", "/ (nodes - 2);", "/ (nodes - 1);"),
+    ("arc/arc_fit.hpp", "ss_ -= norm(ps_) * inverse;", "ss_ += norm(ps_) * inverse;"),
     ("arc/look_ahead.hpp", "square(1.0 + std::sqrt(stretch2))", "square(1.0 - std::sqrt(stretch2))"),
     ("arc/look_ahead.hpp", "from_angle + 2.0 * std::sqrt(from_points * from_angle)", "from_angle"),
     ("arc/look_ahead.hpp", "std::sqrt(a * y2 + b * x2)", "std::sqrt(a * x2 + b * y2)"),
@@ -87,12 +89,15 @@ MUTATIONS = [
     ("space_point_to_candidate/sure_search.hpp", "(!dim_allowed && t.dim(next))", "(dim_allowed && t.dim(next))"),
     ("space_point_to_candidate/joint_choice.hpp", "(work.score[i] + settings.gain * load)", "(work.score[i] - settings.gain * load)"),
     ("space_point_to_candidate/joint_choice.hpp", "if (shared > settings.max_shared)", "if (shared >= settings.max_shared)"),
+    ("space_point_to_candidate/disjoint.hpp", "if (shared > max_shared)", "if (shared >= max_shared)"),
+    ("space_point_to_candidate/chord_hypotheses.hpp", "b.variance * square(1.0 + ratio)", "b.variance * square(1.0 - ratio)"),
     ("space_point_to_candidate/station_scattering.hpp", "k2 * (1.0 + mass2_ * k2)", "k2 * (1.0 - mass2_ * k2)"),
     # fields: a sign of one end of a sheet, a mean, a component of a gradient, the last cell, a turn the wrong way round
     ("field/current_sheet.hpp", "out.radial_per_r -= Scalar(sign)", "out.radial_per_r += Scalar(sign)"),
     ("field/elliptic.hpp", "d = m * d * d / (Scalar(4.0) * next);", "d = m * d * d / (Scalar(2.0) * next);"),
     ("field/cylindrical_map.hpp", "per_r + c * c * rest, c * d * rest, c * by_z", "per_r + c * c * rest, c * d * rest, d * by_z"),
     ("field/grid_axis.hpp", "return {axis.count - 2, Scalar(1.0)", "return {axis.count - 3, Scalar(1.0)"),
+    ("field/sampled_grid.hpp", "3.0 * a[c] - 3.0 * b[c] + e[c]", "2.0 * a[c] - b[c]"),
     ("field/placed_field.hpp", "turn.transpose() * b.gradient * turn", "turn * b.gradient * turn.transpose()"),
     # the way of a fit: a station that does not count, slabs in the wrong order
     ("candidate_to_track/fit_stops.hpp", "path.surfaces[i].station == hit.station && path.surfaces", "path.surfaces"),
@@ -100,6 +105,9 @@ MUTATIONS = [
     # readers and conditions: the last of a range, a unit, an order
     ("io/digit_check.hpp", "d.id.channel >= p.channels", "d.id.channel > p.channels"),
     ("io/field_map_text.hpp", "(place < dimensions() ? length_ : field_)", "(place <= dimensions() ? length_ : field_)"),
+    ("io/fixed_point.hpp", "value < 0.0 && rest != 0;", "value < 0.0;"),
+    ("io/event_rows.hpp", "if (next_ < 0)", "if (next_ < -1)"),
     ("conditions/validity.hpp", "run <= last; }", "run < last; }"),
+    ("conditions/recorded_time.hpp", "midnight + days(1) - seconds(1)", "midnight + days(1)"),
     ("conditions/conditions_store.hpp", "ORDER BY recorded DESC, id DESC", "ORDER BY id DESC"),
 ]

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include <scifi/core/units.hpp>
 #include <scifi/geometry/mice.hpp>
@@ -83,6 +84,24 @@ TEST_CASE("points whose distances no curvature explains give none", "[space_poin
   CHECK(hypotheses(s, p).empty());
   p[2].position = p[1].position;
   CHECK(hypotheses(s, p).empty());
+}
+
+TEST_CASE("a length may be off by what the error of the middle point does to both chords", "[space_point_to_candidate]") {
+  search s = in_field(3.0 * units::tesla);
+  constexpr double q_over_pz = 0.006, variance = 9.0;  // beside which scattering is little
+  const double w = s.options.field * q_over_pz;
+  const auto exact = points(s.options.field, q_over_pz, 0.3, {0.0, 200.0, 450.0});
+  const planar<double> first = exact[1].position - exact[0].position, second = exact[2].position - exact[1].position;
+  const double ratio = std::sqrt(norm(second) / norm(first));
+  const double allowed = std::sqrt(s.options.gate * variance) * (1.0 + ratio);
+  for (const auto& [share, found] : {std::pair(0.9, true), std::pair(1.1, false)}) {
+    auto p = exact;
+    p[0].variance = p[2].variance = 0.0;
+    p[1].variance = variance;
+    p[2].position = p[1].position + (1.0 + share * allowed / std::sqrt(norm(second))) * second;
+    const auto all = hypotheses(s, p);
+    CHECK(std::any_of(all.begin(), all.end(), [w](const curvature_hypothesis& h) { return std::abs(h.curvature - w) < 1e-9; }) == found);
+  }
 }
 
 TEST_CASE("where the chords are short both senses of rotation are tried", "[space_point_to_candidate]") {
