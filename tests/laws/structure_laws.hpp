@@ -44,7 +44,7 @@ Scalar declaration_dependence(const Update& update, const Propagator& p, const N
   const auto moved = declared.predict(start, step);
   const auto moved_densely = dense.predict(start, step);
   auto in_place = start;
-  if (!declared.advance(in_place, step, m).status.ok()) return std::nan("");
+  if (!declared.advance(in_place, step, m).status.ok()) return Scalar(std::nan(""));
   const auto one = declared.update(moved, m).posterior;
   const auto other = dense.update(moved_densely, seen).posterior;
   return std::max({estimate_distance(moved_densely.estimate, moved.estimate), estimate_distance(other, one), estimate_distance(other, in_place)});

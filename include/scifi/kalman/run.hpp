@@ -114,11 +114,13 @@ template <class Filter, class Prior, class Sites, class Nodes, class References>
       const auto take = [&](status predicted, const auto&... about) __attribute__((always_inline)) {
         if constexpr (factored) n.predicted = unfactored(prediction);
         each_alternative(here.measurement, [&](const auto& m) __attribute__((always_inline)) {
-          if constexpr (!factored && std::remove_cvref_t<decltype(f)>::template updates_in_place<estimate_type, std::remove_cvref_t<decltype(m)>, decltype(about)...>) {
-            if (predicted.ok()) {
-              f.update_into(prediction, m, n, about...);
-              current = &n.filtered;
-              return;
+          if constexpr (!factored) {
+            if constexpr (std::remove_cvref_t<decltype(f)>::template updates_in_place<estimate_type, std::remove_cvref_t<decltype(m)>, decltype(about)...>) {
+              if (predicted.ok()) {
+                f.update_into(prediction, m, n, about...);
+                current = &n.filtered;
+                return;
+              }
             }
           }
           const auto u = f.update(basic_prior<estimate_type>{prediction, predicted}, m, about...);
