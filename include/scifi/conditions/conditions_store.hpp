@@ -64,11 +64,12 @@ class conditions_store {
     throw input_error(database_.file(), 0, "", why_nothing(query));
   }
 
-  /// The document of a record, compared with the length and checksum noted when it was added. Throws input_error when it is not the same.
+  /// The document of a record, compared with the length and checksum noted when it was added. Throws input_error when it is not the same
+  /// or not there: a record of another store, or of one whose index is damaged.
   [[nodiscard]] std::string document(const condition& of) const {
     auto s = database_.prepare("SELECT document FROM condition WHERE id = ?1");
     s.bind(1, of.id);
-    if (!s.step()) throw std::invalid_argument(database_.file() + ": there is no record " + std::to_string(of.id));
+    if (!s.step()) throw input_error(database_.file(), 0, "record " + std::to_string(of.id), "is not there");
     std::string text = s.bytes(0);
     if (text.size() != of.length || sha256(text) != of.sha256)
       throw input_error(database_.file(), 0, "record " + std::to_string(of.id), "is damaged: the document does not have the checksum it was stored with");

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <string>
 
 #include <scifi/material/bethe.hpp>
@@ -92,6 +93,34 @@ TEST_CASE("parameters given in the file are taken as they are, and null is an in
   CHECK(m.density_effect.a == 1.0);
   CHECK(m.density_effect.delta0 == 6.0);
   CHECK(from_text("{}", "vacuum").density == 0.0);
+}
+
+TEST_CASE("where the density effect of an unmeasured medium sets in: the published table", "[io]") {
+  // Sternheimer and Peierls, Phys. Rev. B 3 (1971) 3681, as in Sternheimer, Berger and Seltzer, ADNDT 30 (1984) 261, equations 9 to 11.
+  struct row {
+    double density;                 // g/cm3
+    double mean_excitation_energy;  // eV, of solids; of gases it follows from c
+    double c, x0, x1;
+  };
+  const row table[] = {
+      {0.001, 0.0, 9.0, 1.6, 4.0},  {0.001, 0.0, 10.2, 1.7, 4.0}, {0.001, 0.0, 10.7, 1.8, 4.0}, {0.001, 0.0, 11.2, 1.9, 4.0},
+      {0.001, 0.0, 12.0, 2.0, 4.0}, {0.001, 0.0, 13.0, 2.0, 5.0}, {0.001, 0.0, 14.0, 2.064, 5.0},
+      {0.0, 70.0, 3.0, 0.2, 2.0},   {0.0, 70.0, 5.0, 0.63, 2.0},  {0.0, 200.0, 5.0, 0.2, 3.0},  {0.0, 200.0, 6.0, 0.456, 3.0},
+  };
+  constexpr double z_over_a = 0.5;
+  for (const row& r : table) {
+    // c = 2 ln(I / plasma energy) + 1, plasma energy = 28.816 eV sqrt(density Z/A)
+    const double ratio = std::exp(0.5 * (r.c - 1.0));
+    const double density = r.density > 0.0 ? r.density : std::pow(r.mean_excitation_energy / (28.816 * ratio), 2) / z_over_a;
+    const double excitation = 28.816 * std::sqrt(density * z_over_a) * ratio * units::eV;
+    const auto got = scifi::sternheimer_peierls(excitation, density, z_over_a);
+    CAPTURE(r.c, density);
+    CHECK(got.c == Approx(r.c).epsilon(1e-12));
+    CHECK(got.x0 == Approx(r.x0).epsilon(1e-12));
+    CHECK(got.x1 == r.x1);
+    // At x0 the effect begins from zero.
+    CHECK(2.0 * std::numbers::ln10 * got.x0 - got.c + got.a * std::pow(got.x1 - got.x0, got.m) == Approx(0.0).margin(1e-12 * r.c));
+  }
 }
 
 TEST_CASE("a wrong material is refused with its field", "[io]") {

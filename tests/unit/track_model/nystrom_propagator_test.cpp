@@ -187,6 +187,9 @@ TEST_CASE("a track that leaves the field, begins nowhere or turns back says so, 
     CHECK(inside.fly(muon(180.0), {strange, 10.0}).status == flight_status::not_finite);
   }
   CHECK(nystrom_propagator{graded}.fly(muon(180.0), {0.0, 1e300}).status != flight_status::arrived);
+  CHECK(describe(flight_status::arrived) == "the track arrived");
+  CHECK(describe(flight_status::not_finite) == "the track or its way began with a number that is infinite or not a number");
+  CHECK(describe(flight_status::no_field) == "the track left the region where the field is known");
 
   // A transverse field of 3 T turns 50 MeV/c back on a radius of 56 mm.
   const nystrom_propagator across{uniform_field{{three_tesla, 0.0, 0.0}}};
