@@ -12,7 +12,8 @@ using namespace scifi;
 
 TEST_CASE("a doublet of MICE fibres says 0.0945 mm where two channels overlap and 1.4 mm elsewhere", "[information]") {
   const doublet_information said;
-  for (const plane& p : mice::trackers().trackers[mice::downstream].stations[1].planes) {
+  const detector where = mice::trackers();
+  for (const plane& p : where.trackers[mice::downstream].stations[1].planes) {
     // The middle of a channel, and the border between two.
     CHECK(said.variance(p, p.alpha(57.0)) == Approx(1.4 * 1.4 / 12.0).epsilon(1e-3));
     CHECK(said.variance(p, p.alpha(57.5)) == Approx(0.0945 * 0.0945 / 12.0).epsilon(1e-3));
