@@ -77,7 +77,7 @@ struct pack_mask {
 /// One number for each of several tracks, worked on together: a scalar of the numerical core, on the vector types of g++ and clang.
 ///
 /// Arithmetic and comparisons act lane by lane; a plain number stands for the same number in each lane. `select`, `any_of` and `all_of` take the masks that
-/// comparisons yield. Square root here, logarithm, exponential, sine and cosine in <scifi/core/pack_math.hpp>.
+/// comparisons yield. As wide as the registers of the processor compiled for unless said otherwise; of wider ones clang makes no Eigen matrices. Square root here, logarithm, exponential, sine and cosine in <scifi/core/pack_math.hpp>.
 template <class T, int Lanes = native_lanes<T>>
 struct pack {
   static_assert(std::is_same_v<T, double> || std::is_same_v<T, float>, "scifi: a pack is of double or float");

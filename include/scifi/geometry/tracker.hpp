@@ -25,7 +25,7 @@ struct tracker {
 };
 
 /// Throws std::invalid_argument, naming the culprit, where nothing could be reconstructed: no active radius, a plane without channels, planes that are not
-/// listed in order of growing z.
+/// listed in order of growing z (those of one station may share theirs).
 inline void check(const tracker& t) {
   const auto refuse = [&t](const std::string& why) { detail::refuse<std::invalid_argument>("tracker " + (t.name.empty() ? std::to_string(t.id) : t.name) + ": " + why); };
   if (!(t.active_radius > 0.0)) refuse("active_radius must be above zero: nothing beyond it is taken for real");
@@ -37,7 +37,7 @@ inline void check(const tracker& t) {
       const double z = s.in_tracker.origin.z() + p.z_measured;
       const std::string here = "plane " + std::to_string(i) + " of station " + std::to_string(s.id);
       if (p.channels <= 0 || !(p.channel_width > 0.0)) refuse(here + " has no channels, or none of a width above zero");
-      if (!last.empty() && !(z > last_z))
+      if (!last.empty() && !(i > 0 ? z >= last_z : z > last_z))
         refuse(here + ", at z = " + std::to_string(z) + " mm, must lie behind " + last + ", at z = " + std::to_string(last_z) + " mm, which is listed before it");
       last = here;
       last_z = z;

@@ -31,6 +31,15 @@ inline constexpr bool is_dual = [] {
   else return std::is_convertible_v<T, dual_number<Scalar, N>> && !std::is_convertible_v<T, Scalar>;
 }();
 
+/// Values of dual numbers to `value`, their derivatives to the rows of `jacobian`.
+template <class Duals, class Value, class Jacobian>
+void take_apart(const Duals& from, Value& value, Jacobian& jacobian) {
+  for (Eigen::Index i = 0; i < from.size(); ++i) {
+    value(i) = from(i).value();
+    jacobian.row(i) = from(i).derivatives().transpose();
+  }
+}
+
 }  // namespace detail
 
 /// A propagator made from a callable f(x, step) that returns the state at the end, templated on the scalar of x.
@@ -50,10 +59,7 @@ struct automatic_jacobian {
     propagated<Scalar, N> out;
     if constexpr (any_scalar) {
       const vector<dual, N> end = f(detail::as_dual(x), step);
-      for (int i = 0; i < N; ++i) {
-        out.state(i) = end(i).value();
-        out.jacobian.row(i) = end(i).derivatives().transpose();
-      }
+      detail::take_apart(end, out.state, out.jacobian);
     }
     return out;
   }
@@ -91,10 +97,7 @@ struct automatic_projection {
     projected<Scalar, M, N> out;
     if constexpr (any_scalar) {
       const vector<dual, M> end = detail::as_matrix<dual, M, 1>(measured.expected(detail::as_dual(x)));
-      for (int i = 0; i < M; ++i) {
-        out.value(i) = end(i).value();
-        out.jacobian.row(i) = end(i).derivatives().transpose();
-      }
+      detail::take_apart(end, out.value, out.jacobian);
     }
     return out;
   }

@@ -61,6 +61,12 @@ TEST_CASE("a tracker in which nothing can be found is refused by the name of wha
   const auto message = [](const scifi::tracker& t) { return scifi::test::message_of<std::invalid_argument>([&t] { scifi::check(t); }); };
   const scifi::tracker good = scifi::mice::trackers().trackers[scifi::mice::downstream];
   CHECK(message(good) == "(no error)");
+  scifi::tracker crossed = good;  // both sides of one sensor
+  for (scifi::station& s : crossed.stations)
+    for (scifi::plane& p : s.planes) p.z_measured = 0.0;
+  CHECK(message(crossed) == "(no error)");
+  crossed.stations[1].in_tracker.origin.z() = crossed.stations[0].in_tracker.origin.z();
+  CHECK(message(crossed).find("tracker TKD: plane 0 of station 2, at z = ") == 0);
 
   scifi::tracker swapped = good;
   std::swap(swapped.stations[1], swapped.stations[3]);

@@ -11,7 +11,7 @@ namespace kalman = scifi::kalman;
 
 namespace {
 
-using pack = scifi::pack<double, 4>;
+using pack = scifi::pack<double, 2>;  // any processor has registers so wide
 
 template <class Scalar>
 struct position {
@@ -28,14 +28,15 @@ TEST_CASE("a lane without the measurement keeps its estimate, the others take it
   kalman::estimate<pack, 2> prior{scifi::vector<pack, 2>::Constant(pack(0.5)), scifi::matrix<pack, 2, 2>::Identity()};
   const kalman::estimate<double, 2> alone{scifi::vector<double, 2>::Constant(0.5), scifi::matrix<double, 2, 2>::Identity()};
   kalman::in_some_lanes<position<pack>, kalman::mask<pack>> m{{pack(0.0)}, true};
-  for (int lane = 0; lane < 4; ++lane) m.z.set(lane, 0.1 * lane);
-  m.where.set(2, false);
+  for (int lane = 0; lane < pack::lanes; ++lane) m.z.set(lane, 0.1 * (lane + 1));
+  constexpr int without = 1;
+  m.where.set(without, false);
   const auto u = f.update(prior, m);
   REQUIRE(u.status.ok());
-  for (int lane = 0; lane < 4; ++lane) {
-    CHECK(u.outlier[lane] == (lane == 2));
-    const auto one = f.update(alone, position<double>{0.1 * lane});
-    const auto& expected = lane == 2 ? alone : one.posterior;
+  for (int lane = 0; lane < pack::lanes; ++lane) {
+    CHECK(u.outlier[lane] == (lane == without));
+    const auto one = f.update(alone, position<double>{0.1 * (lane + 1)});
+    const auto& expected = lane == without ? alone : one.posterior;
     for (int i = 0; i < 2; ++i) CHECK(u.posterior.mean(i)[lane] == Approx(expected.mean(i)).epsilon(1e-14));
     for (int i = 0; i < 4; ++i) CHECK(u.posterior.covariance.data()[i][lane] == Approx(expected.covariance.data()[i]).margin(1e-15));
   }

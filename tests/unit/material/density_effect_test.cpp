@@ -69,7 +69,9 @@ TEST_CASE("The prepared density effect is that of the formula, for numbers and i
       if (std::abs(x - s.x0) > 1e-5 && std::abs(x - s.x1) > 1e-5)
         worst_of_floats = std::max({worst_of_floats, std::abs(static_cast<double>(of_float.value[0]) - expected.value) / scale});
     }
-    CHECK(worst < 2e-14);
+    // The power in the derivative is below 2 and, where it is not small, exp((m - 1) log d) is good to some 5 roundings, the series to 4: 18 in all.
+    CHECK(worst < 4e-15);
+    // The value alone, whose terms are of the size it is compared with: 8 roundings of float.
     CHECK(worst_of_floats < 1e-6);
   }
   CHECK(density_effect_at_log(1.0, prepared_density_effect{}).value == density_effect_at_log(1.0, material::sternheimer{}).value);
